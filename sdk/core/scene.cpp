@@ -1,0 +1,226 @@
+#include "core/scene.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/scene_ranges.h"
+
+namespace brume {
+namespace {
+
+constexpr double koschmieder = 3.912;  // -log(0.02): contrast at the visibility's distance is 2 %
+
+template <size_t N>
+bool any_animated(const std::array<Number, N> &numbers)
+{
+    return std::any_of(numbers.begin(), numbers.end(), [](const Number &n) { return n.animated(); });
+}
+
+bool any_animated(const std::optional<Number> &number)
+{
+    return number && number->animated();
+}
+
+bool always_zero(const Number &number)
+{
+    return std::all_of(number.keys.begin(), number.keys.end(), [](const auto &key) { return key.second == 0.0; });
+}
+
+bool animated(const DensityTerm &term)
+{
+    return term.value.animated() || term.falloff.animated() || any_animated(term.direction) || any_animated(term.origin);
+}
+
+bool animated(const Medium &medium)
+{
+    return any_animated(medium.scattering) || any_animated(medium.absorption) || any_animated(medium.emission) ||
+           medium.g.animated() || any_animated(medium.visibility) || any_animated(medium.droplet_diameter) ||
+           std::any_of(medium.density.begin(), medium.density.end(), [](const DensityTerm &t) { return animated(t); });
+}
+
+bool animated(const Camera &camera)
+{
+    return any_animated(camera.vertical_fov) || any_animated(camera.horizontal_fov) || camera.pixel_aspect.animated() ||
+           any_animated(camera.center) || (camera.camera_to_world && any_animated(*camera.camera_to_world));
+}
+
+// A scene's numbers at one frame, each checked.
+class FrameValues {
+public:
+    explicit FrameValues(double frame) : frame_(frame) {}
+
+    double check(double value, const Range &range, const std::string &name) const
+    {
+        if (!range.contains(value))
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        fmt::format("{}: {} at frame {}; expected {}", name, value, frame_, range.describe()));
+        return value;
+    }
+
+    double get(const Number &number, const Range &range, const std::string &name) const
+    {
+        return check(number.at(frame_), range, name);
+    }
+
+    std::array<double, 3> get(const Number3 &numbers, const Range &range, const std::string &name) const
+    {
+        std::array<double, 3> values;
+        for (size_t i = 0; i < 3; ++i)
+            values[i] = get(numbers[i], range, fmt::format("{}[{}]", name, i));
+        return values;
+    }
+
+    std::array<double, 3> unit_vector(const Number3 &numbers, const std::string &name) const
+    {
+        std::array<double, 3> v = get(numbers, ranges::any, name);
+        const double length = std::hypot(v[0], v[1], v[2]);
+        if (length == 0.0)
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        fmt::format("{}: (0, 0, 0) at frame {}; expected a vector that is not zero", name, frame_));
+        for (double &x : v)
+            x /= length;
+        return v;
+    }
+
+private:
+    double frame_;
+};
+
+double dot(const std::array<double, 3> &a, const std::array<double, 3> &b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Mean cosine of Draine's phase function.
+double draine_mean_cosine(double g, double alpha)
+{
+    return g * (1.0 + alpha * (3.0 + 2.0 * g * g) / 5.0) / (1.0 + alpha * (1.0 + 2.0 * g * g) / 3.0);
+}
+
+// Of the mixture of Henyey-Greenstein and Draine that Jendersie and d'Eon 2023 fit to Mie scattering by droplets of
+// diameter d [um].
+double droplet_mean_cosine(double d)
+{
+    const double g_hg = std::exp(-0.0990567 / (d - 1.67154));
+    const double g_draine = std::exp(-2.20679 / (d + 3.91029) - 0.428934);
+    const double alpha = std::exp(3.62489 - 8.29288 / (d + 5.52825));
+    const double weight = std::exp(-0.599085 / (d - 0.641583) - 0.665888);
+    return (1.0 - weight) * g_hg + weight * draine_mean_cosine(g_draine, alpha);
+}
+
+// The world seen from a camera, in metres.
+struct View {
+    std::array<double, 3> position;
+    std::array<std::array<double, 3>, 3> axes;  // of the camera, in world space
+
+    View(const std::array<double, 16> &camera_to_world, double metres_per_unit, const FrameValues &values)
+    {
+        const auto &m = camera_to_world;
+        values.check(metres_per_unit, ranges::positive, "metres_per_unit");
+        for (size_t i = 0; i < m.size(); ++i)
+            values.check(m[i], ranges::any, fmt::format("camera.camera_to_world[{}][{}]", i / 4, i % 4));
+        for (size_t row = 0; row < 3; ++row) {
+            position[row] = m[4 * row + 3] * metres_per_unit;
+            for (size_t column = 0; column < 3; ++column)
+                axes[column][row] = m[4 * row + column];
+        }
+    }
+};
+
+void evaluate_density(const Scene &scene, const FrameValues &values, const std::array<double, 16> &camera_to_world,
+                      brume_plugin_medium &out)
+{
+    const View view(camera_to_world, scene.metres_per_unit, values);
+    const std::vector<DensityTerm> &terms = scene.medium->density;
+    double constant = terms.empty() ? 1.0 : 0.0;
+    for (size_t i = 0; i < terms.size(); ++i) {
+        const std::string name = fmt::format("medium.density[{}]", i);
+        const DensityTerm &term = terms[i];
+        const bool exponential = term.type == BRUME_DENSITY_EXPONENTIAL;
+        const double value = values.get(term.value, ranges::not_negative, name + ".value");
+        const double falloff = exponential ? values.get(term.falloff, ranges::not_negative, name + ".falloff") : 0.0;
+        if (falloff == 0.0) {
+            constant += value;
+            continue;
+        }
+        const std::array<double, 3> n = values.unit_vector(term.direction, name + ".direction");
+        const std::array<double, 3> origin = values.get(term.origin, ranges::any, name + ".origin");
+        if (value == 0.0)
+            continue;
+        if (out.term_count == int32_t(BRUME_MAX_DENSITY_TERMS))
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.density: more than {} exponential terms; expected at most "
+                                                          "that many", BRUME_MAX_DENSITY_TERMS));
+        std::array<double, 3> from_origin;
+        for (size_t axis = 0; axis < 3; ++axis)
+            from_origin[axis] = view.position[axis] - origin[axis] * scene.metres_per_unit;
+
+        float *to = out.terms[out.term_count++];
+        for (size_t axis = 0; axis < 3; ++axis)
+            to[axis] = float(std::clamp(falloff * dot(view.axes[axis], n), -ranges::huge, ranges::huge));
+        to[3] = float(std::clamp(std::log(value) - falloff * dot(from_origin, n), -ranges::huge, ranges::huge));
+    }
+    out.constant = float(std::min(constant, double(FLT_MAX)));
+}
+
+}  // namespace
+
+double Number::at(double frame) const
+{
+    const auto after = std::upper_bound(keys.begin(), keys.end(), frame,
+                                        [](double f, const auto &key) { return f < key.first; });
+    if (after == keys.begin())
+        return keys.front().second;
+    if (after == keys.end())
+        return keys.back().second;
+    const auto before = after - 1;
+    return std::lerp(before->second, after->second, (frame - before->first) / (after->first - before->first));
+}
+
+bool Scene::animated() const
+{
+    return (medium && brume::animated(*medium)) || brume::animated(camera);
+}
+
+bool pose_matters(const Scene &scene)
+{
+    return scene.medium && std::any_of(scene.medium->density.begin(), scene.medium->density.end(), [](const auto &term) {
+               return term.type == BRUME_DENSITY_EXPONENTIAL && !always_zero(term.falloff) && !always_zero(term.value);
+           });
+}
+
+void evaluate_medium(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
+                     brume_plugin_medium &out)
+{
+    out = {};
+    for (size_t i = 0; i < 3; ++i)
+        out.luminance[i] = float(scene.luminance[i]);
+    if (!scene.medium)
+        return;
+
+    const Medium &medium = *scene.medium;
+    const FrameValues values(frame);
+    std::array<double, 3> scattering = values.get(medium.scattering, ranges::not_negative, "medium.scattering");
+    const std::array<double, 3> absorption = values.get(medium.absorption, ranges::not_negative, "medium.absorption");
+    const std::array<double, 3> emission = values.get(medium.emission, ranges::not_negative, "medium.emission");
+    if (medium.visibility) {
+        const double extinction = koschmieder / values.get(*medium.visibility, ranges::positive, "medium.visibility");
+        for (size_t i = 0; i < 3; ++i)
+            scattering[i] = std::max(extinction - absorption[i], 0.0);
+    }
+    for (size_t i = 0; i < 3; ++i) {
+        out.scattering[i] = float(scattering[i]);
+        out.absorption[i] = float(absorption[i]);
+        out.emission[i] = float(emission[i]);
+    }
+    out.asymmetry = float(medium.droplet_diameter
+                              ? droplet_mean_cosine(values.get(*medium.droplet_diameter, ranges::droplet_diameter,
+                                                               "medium.droplet_diameter"))
+                              : values.get(medium.g, ranges::asymmetry, "medium.g"));
+    evaluate_density(scene, values, camera_to_world, out);
+}
+
+}  // namespace brume

@@ -1,0 +1,193 @@
+#include <nlohmann/json.hpp>
+
+#include "core/effects.h"
+#include "core/scene.h"
+#include "core/scene_ranges.h"
+
+namespace brume {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json reference(const std::string &definition)
+{
+    return {{"$ref", "#/$defs/" + definition}};
+}
+
+Json array_of(const Json &items, size_t count)
+{
+    return {{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}};
+}
+
+Json object_of(const Json &properties, const std::vector<std::string> &required = {})
+{
+    Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+    if (!required.empty())
+        schema["required"] = required;
+    return schema;
+}
+
+Json described(Json schema, const std::string &description)
+{
+    schema["description"] = description;
+    return schema;
+}
+
+Json not_together(const std::string &one, const std::string &other)
+{
+    return {{"not", {{"required", {one, other}}}}};
+}
+
+Json constant(const Range &range)
+{
+    return {{"type", "number"},
+            {range.open ? "exclusiveMinimum" : "minimum", range.minimum},
+            {range.open ? "exclusiveMaximum" : "maximum", range.maximum}};
+}
+
+// A number, or keys over the frames.
+Json number(const Range &range)
+{
+    const Json pair{{"type", "array"},
+                    {"prefixItems", Json::array({constant(ranges::frame), constant(range)})},
+                    {"minItems", 2},
+                    {"maxItems", 2}};
+    const Json keys{{"type", "array"}, {"items", pair}, {"minItems", 1}};
+    return {{"anyOf", Json::array({constant(range), object_of({{"keys", keys}}, {"keys"})})}};
+}
+
+Json definitions()
+{
+    const Json vector = array_of(reference("number"), 3);
+    Json direction = vector;
+    direction["not"] = {{"const", {0, 0, 0}}};
+    return {{"number", number(ranges::any)},
+            {"not_negative", number(ranges::not_negative)},
+            {"field_of_view", number(ranges::field_of_view)},
+            {"rgb", {{"anyOf", Json::array({reference("not_negative"), array_of(reference("not_negative"), 3)})}}},
+            {"vector", vector},
+            {"direction", direction}};
+}
+
+Json camera()
+{
+    Json schema = object_of(
+        {{"vertical_fov", described(reference("field_of_view"), "Of the display window's height [degrees]")},
+         {"horizontal_fov", described(reference("field_of_view"), "Of the display window's width [degrees]")},
+         {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
+                                       "Row-major, applied to column points; rigid; looks down -z, +y up")},
+         {"pixel_aspect", described(number(ranges::pixel_aspect), "Width of a pixel over its height; 1 by default")},
+         {"center", described(array_of(number(ranges::center), 2),
+                              "Principal point as a fraction of the display window, from its left and its top")}});
+    schema["allOf"] = Json::array({not_together("vertical_fov", "horizontal_fov")});
+    return schema;
+}
+
+Json density()
+{
+    const Json value = described(reference("not_negative"), "Ratio to unit density; 1 by default");
+    const Json constant_term = object_of({{"type", {{"const", "constant"}}}, {"value", value}}, {"type"});
+    const Json exponential_term = object_of(
+        {{"type", {{"const", "exponential"}}},
+         {"value", value},
+         {"falloff", described(reference("not_negative"), "[1/m]; 0 by default")},
+         {"direction", described(reference("direction"), "The density falls along it; [0, 1, 0] by default")},
+         {"origin", described(reference("vector"), "Where the density has its value; scene units")}},
+        {"type"});
+    return {{"type", "array"},
+            {"description", "Terms that add up; none: constant 1"},
+            {"items", {{"oneOf", Json::array({constant_term, exponential_term})}}},
+            {"contains", {{"properties", {{"type", {{"const", "exponential"}}}}}}},
+            {"minContains", 0},
+            {"maxContains", BRUME_MAX_DENSITY_TERMS}};
+}
+
+Json medium()
+{
+    Json schema = object_of(
+        {{"scattering", described(reference("rgb"), "At unit density [1/m]")},
+         {"absorption", described(reference("rgb"), "At unit density [1/m]")},
+         {"emission", described(reference("rgb"), "Radiance per metre at unit density")},
+         {"g", described(number(ranges::asymmetry), "Mean cosine of the phase function")},
+         {"visibility", described(number(ranges::positive), "[m]; instead of scattering: 3.912 / visibility - absorption")},
+         {"droplet_diameter", described(number(ranges::droplet_diameter), "[um]; instead of g")},
+         {"density", density()}});
+    schema["allOf"] = Json::array({not_together("scattering", "visibility"), not_together("g", "droplet_diameter")});
+    return schema;
+}
+
+Json lights()
+{
+    const Json position = reference("vector"), direction = reference("direction"), intensity = reference("rgb"),
+               radius = reference("not_negative"), angle = number(ranges::spot_angle);
+    const Json kinds = Json::array(
+        {object_of({{"type", {{"const", "point"}}}, {"position", position}, {"intensity", intensity}, {"radius", radius}},
+                   {"type", "position", "intensity"}),
+         object_of({{"type", {{"const", "spot"}}},
+                    {"position", position},
+                    {"direction", direction},
+                    {"intensity", intensity},
+                    {"radius", radius},
+                    {"angle", angle}},
+                   {"type", "position", "direction", "intensity"}),
+         object_of({{"type", {{"const", "directional"}}}, {"direction", direction}, {"intensity", intensity}},
+                   {"type", "direction", "intensity"})});
+    return {{"type", "array"}, {"description", "No effect of this version reads them"}, {"items", {{"oneOf", kinds}}}};
+}
+
+Json parameter_schema(const Parameter &parameter)
+{
+    Json schema;
+    switch (parameter.type) {
+    case BRUME_PARAMETER_BOOLEAN:
+        schema = {{"type", "boolean"}, {"default", parameter.default_value != 0.0}};
+        break;
+    case BRUME_PARAMETER_CHOICE:
+        schema = {{"enum", parameter.choices}, {"default", parameter.choices[size_t(parameter.default_value)]}};
+        break;
+    case BRUME_PARAMETER_INTEGER:
+        schema = {{"type", "integer"},
+                  {"minimum", int64_t(parameter.minimum)},
+                  {"maximum", int64_t(parameter.maximum)},
+                  {"default", int64_t(parameter.default_value)}};
+        break;
+    default:
+        schema = constant({parameter.minimum, parameter.maximum});
+        schema["default"] = parameter.default_value;
+    }
+    return described(schema, parameter.unit.empty() ? parameter.help : parameter.help + " [" + parameter.unit + "]");
+}
+
+Json effects_schema(const EffectRegistry &registry)
+{
+    Json effects = Json::object();
+    for (const Effect &effect : registry.all()) {
+        if (!effect.refusal.empty())
+            continue;
+        Json parameters = Json::object();
+        for (const Parameter &parameter : effect.parameters)
+            parameters[parameter.name] = parameter_schema(parameter);
+        effects[effect.name] = described(object_of(parameters), effect.help);
+    }
+    return described(object_of(effects), "Effects and their parameters; none: those that the scene needs");
+}
+
+}  // namespace
+
+std::string scene_schema(const EffectRegistry &effects)
+{
+    Json schema = object_of(
+        {{"brume", {{"const", 1}, {"description", "Version of the file format"}}},
+         {"metres_per_unit", described(constant(ranges::positive), "Length of one scene unit; 1 by default")},
+         {"camera", camera()},
+         {"medium", medium()},
+         {"lights", lights()},
+         {"effects", effects_schema(effects)}},
+        {"brume"});
+    schema["$defs"] = definitions();
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+    schema["title"] = "Brume scene";
+    return schema.dump(2);
+}
+
+}  // namespace brume
