@@ -14,8 +14,7 @@ namespace {
 
 constexpr double koschmieder = 3.912;  // -log(0.02): contrast at the visibility's distance is 2 %
 
-template <size_t N>
-bool any_animated(const std::array<Number, N> &numbers)
+template <size_t N> bool any_animated(const std::array<Number, N> &numbers)
 {
     return std::any_of(numbers.begin(), numbers.end(), [](const Number &n) { return n.animated(); });
 }
@@ -32,7 +31,8 @@ bool always_zero(const Number &number)
 
 bool animated(const DensityTerm &term)
 {
-    return term.value.animated() || term.falloff.animated() || any_animated(term.direction) || any_animated(term.origin);
+    return term.value.animated() || term.falloff.animated() || any_animated(term.direction) ||
+           any_animated(term.origin);
 }
 
 bool animated(const Medium &medium)
@@ -112,12 +112,12 @@ double droplet_mean_cosine(double d)
     return (1.0 - weight) * g_hg + weight * draine_mean_cosine(g_draine, alpha);
 }
 
-// The world seen from a camera, in metres.
-struct View {
+// Of the camera, in metres.
+struct Pose {
     std::array<double, 3> position;
-    std::array<std::array<double, 3>, 3> axes;  // of the camera, in world space
+    std::array<std::array<double, 3>, 3> axes;
 
-    View(const std::array<double, 16> &camera_to_world, double metres_per_unit, const FrameValues &values)
+    Pose(const std::array<double, 16> &camera_to_world, double metres_per_unit, const FrameValues &values)
     {
         const auto &m = camera_to_world;
         values.check(metres_per_unit, ranges::positive, "metres_per_unit");
@@ -134,7 +134,7 @@ struct View {
 void evaluate_density(const Scene &scene, const FrameValues &values, const std::array<double, 16> &camera_to_world,
                       brume_plugin_medium &out)
 {
-    const View view(camera_to_world, scene.metres_per_unit, values);
+    const Pose pose(camera_to_world, scene.metres_per_unit, values);
     const std::vector<DensityTerm> &terms = scene.medium->density;
     double constant = terms.empty() ? 1.0 : 0.0;
     for (size_t i = 0; i < terms.size(); ++i) {
@@ -152,15 +152,15 @@ void evaluate_density(const Scene &scene, const FrameValues &values, const std::
         if (value == 0.0)
             continue;
         if (out.term_count == int32_t(BRUME_MAX_DENSITY_TERMS))
-            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.density: more than {} exponential terms; expected at most "
-                                                          "that many", BRUME_MAX_DENSITY_TERMS));
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        fmt::format("medium.density: more exponential terms than {}", BRUME_MAX_DENSITY_TERMS));
         std::array<double, 3> from_origin;
         for (size_t axis = 0; axis < 3; ++axis)
-            from_origin[axis] = view.position[axis] - origin[axis] * scene.metres_per_unit;
+            from_origin[axis] = pose.position[axis] - origin[axis] * scene.metres_per_unit;
 
         float *to = out.terms[out.term_count++];
         for (size_t axis = 0; axis < 3; ++axis)
-            to[axis] = float(std::clamp(falloff * dot(view.axes[axis], n), -ranges::huge, ranges::huge));
+            to[axis] = float(std::clamp(falloff * dot(pose.axes[axis], n), -ranges::huge, ranges::huge));
         to[3] = float(std::clamp(std::log(value) - falloff * dot(from_origin, n), -ranges::huge, ranges::huge));
     }
     out.constant = float(std::min(constant, double(FLT_MAX)));
@@ -170,8 +170,8 @@ void evaluate_density(const Scene &scene, const FrameValues &values, const std::
 
 double Number::at(double frame) const
 {
-    const auto after = std::upper_bound(keys.begin(), keys.end(), frame,
-                                        [](double f, const auto &key) { return f < key.first; });
+    const auto after =
+        std::upper_bound(keys.begin(), keys.end(), frame, [](double f, const auto &key) { return f < key.first; });
     if (after == keys.begin())
         return keys.front().second;
     if (after == keys.end())
@@ -187,7 +187,8 @@ bool Scene::animated() const
 
 bool pose_matters(const Scene &scene)
 {
-    return scene.medium && std::any_of(scene.medium->density.begin(), scene.medium->density.end(), [](const auto &term) {
+    return scene.medium &&
+           std::any_of(scene.medium->density.begin(), scene.medium->density.end(), [](const auto &term) {
                return term.type == BRUME_DENSITY_EXPONENTIAL && !always_zero(term.falloff) && !always_zero(term.value);
            });
 }

@@ -1,0 +1,36 @@
+# Functions that the library, its plugins and the tests share.
+
+# brume_embed(TARGET NAMESPACE FUNCTION FILES...): the files' texts, embedded into TARGET.
+function(brume_embed target namespace function)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${target}_${function}.cpp)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DNAMESPACE=${namespace} -DFUNCTION=${function} "-DFILES=${ARGN}"
+            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+    DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()
+
+# brume_check_shaders(TARGET FILES...): every compute pass goes through glslangValidator at build time, preceded by what
+# the host puts before it and with its includes from shaders/lib.
+function(brume_check_shaders target)
+  set(stamps "")
+  foreach(file IN LISTS ARGN)
+    get_filename_component(name "${file}" NAME)
+    set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${name}.checked)
+    add_custom_command(OUTPUT ${stamp}
+      COMMAND ${CMAKE_COMMAND} -DVALIDATOR=${GLSLANG_VALIDATOR} -DLIB=${PROJECT_SOURCE_DIR}/shaders/lib -DFILE=${file}
+              -DSTAMP=${stamp} -P ${PROJECT_SOURCE_DIR}/cmake/CheckShader.cmake
+      DEPENDS ${file} ${BRUME_SHADER_LIB} ${PROJECT_SOURCE_DIR}/cmake/CheckShader.cmake VERBATIM)
+    list(APPEND stamps ${stamp})
+  endforeach()
+  add_custom_target(${target} ALL DEPENDS ${stamps})
+endfunction()
+
+# An effect: a module in lib/brume/ that sees the public headers only.
+function(brume_add_effect name)
+  add_library(${name} MODULE ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/sdk/include ${PROJECT_SOURCE_DIR}/shaders)
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/brume
+    CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/brume COMPONENT runtime)
+endfunction()

@@ -1,0 +1,193 @@
+// Kernel `paper` on the CPU: loops over rows around the functions of shaders/lib/multiscatter.glsl.
+#include "state.h"
+
+namespace multiscatter {
+namespace {
+
+using namespace brume::maths_float;
+
+// All that the passes of one frame share.
+struct Frame {
+    const brume_services &services;
+    brume_host host;
+    const State &state;
+    Medium medium;
+    Camera camera;
+    Filter filter;
+    float output_limit;
+    brume_plugin_pixels color{}, depth{}, output{}, radiance{}, radiance_stack{}, spread_stack{}, separated{},
+        separated_stack{}, transmittance{}, optical_depth{}, scattered{}, blur_radius{};
+
+    // Maps an image that may be NULL.
+    brume_status map(brume_plugin_image image, brume_plugin_pixels &out)
+    {
+        return image ? services.pixels(host, image, &out) : BRUME_OK;
+    }
+};
+
+sampler2D sampler(const brume_plugin_pixels &p)
+{
+    return {p.data, p.row_stride, p.width, p.height, p.channels};
+}
+
+float *at(const brume_plugin_pixels &p, int x, int y)
+{
+    return p.data + y * p.row_stride + int64_t(x) * p.channels;
+}
+
+vec4 load(const brume_plugin_pixels &p, int x, int y)
+{
+    const float *v = at(p, x, y);
+    return vec4(v[0], v[1], v[2], v[3]);
+}
+
+void store(const brume_plugin_pixels &p, int x, int y, vec4 value)
+{
+    float *v = at(p, x, y);
+    v[0] = value.x;
+    v[1] = value.y;
+    v[2] = value.z;
+    v[3] = value.w;
+}
+
+template <class Function>
+brume_status for_rows(Frame &frame, const char *name, int count, int grain, Function function)
+{
+    struct Call {
+        Function &function;
+    } call{function};
+    return frame.services.rows(
+        frame.host, name, count, grain,
+        [](void *user, int32_t first, int32_t last) {
+            for (int32_t y = first; y < last; ++y)
+                static_cast<Call *>(user)->function(y);
+            return brume_status(BRUME_OK);
+        },
+        &call);
+}
+
+vec2 pixel_centre(int x, int y)
+{
+    return vec2(float(x) + 0.5f, float(y) + 0.5f);
+}
+
+brume_status scatter(Frame &frame)
+{
+    return for_rows(frame, "scatter", frame.state.height, 8, [&](int y) {
+        for (int x = 0; x < frame.state.width; ++x) {
+            Pixel pixel = pixel_in_medium(frame.medium, frame.camera, pixel_centre(x, y), *at(frame.depth, x, y));
+            Sources s = scattered_sources(frame.medium, frame.filter, pixel, vec3(load(frame.color, x, y)));
+            store(frame.radiance, x, y, s.spread);
+            if (frame.separated.data)
+                store(frame.separated, x, y, s.separated);
+        }
+    });
+}
+
+// A template for the number of taps, so that the loops over them unroll.
+template <int taps> void downsample_row(const Frame &frame, int level, int y)
+{
+    ivec2 base(frame.state.width, frame.state.height);
+    ivec2 size = level_size(base, level), finer_size = level_size(base, level - 1);
+    int row = level_row(base, level), finer_row = level == 1 ? 0 : level_row(base, level - 1);
+    const Filter &f = frame.filter;
+    sampler2D radiance = sampler(level == 1 ? frame.radiance : frame.radiance_stack);
+    sampler2D separated = sampler(level == 1 ? frame.separated : frame.separated_stack);
+    sampler2D spread = sampler(level == 1 ? frame.radiance : frame.spread_stack);
+    for (int x = 0; x < size.x; ++x) {
+        ivec2 texel(x, y);
+        store(frame.radiance_stack, x, row + y,
+              downsampled_radiance(radiance, finer_size, finer_row, texel, level, taps, f.masking, f,
+                                   frame.medium.luminance));
+        if (frame.spread_stack.data)
+            *at(frame.spread_stack, x, row + y) =
+                downsampled_spread(spread, finer_size, finer_row, texel, taps, level == 1 ? 3 : 0);
+        if (frame.separated_stack.data)
+            store(frame.separated_stack, x, row + y,
+                  downsampled_radiance(separated, finer_size, finer_row, texel, level, taps, 0, f,
+                                       frame.medium.luminance));
+    }
+}
+
+brume_status downsample(Frame &frame)
+{
+    auto row = frame.state.parameters.taps == 2   ? downsample_row<2>
+               : frame.state.parameters.taps == 4 ? downsample_row<4>
+                                                  : downsample_row<6>;
+    for (int level = 1; level <= frame.state.top; ++level) {
+        int height = level_size({frame.state.width, frame.state.height}, level).y;
+        brume_status s =
+            for_rows(frame, "downsample", height, 8, [&](int y) { row(frame, level, y); });
+        if (s)
+            return s;
+    }
+    return BRUME_OK;
+}
+
+brume_status compose(Frame &frame)
+{
+    Pyramid pyramid{ivec2(frame.state.width, frame.state.height), frame.state.top};
+    sampler2D radiance = sampler(frame.radiance), stack = sampler(frame.radiance_stack);
+    sampler2D spread_stack = sampler(frame.spread_stack);
+    sampler2D separated = sampler(frame.separated), separated_stack = sampler(frame.separated_stack);
+    return for_rows(frame, "compose", frame.state.height, 8, [&](int y) {
+        for (int x = 0; x < frame.state.width; ++x) {
+            vec2 centre = pixel_centre(x, y);
+            vec4 color = load(frame.color, x, y);
+            Pixel pixel = pixel_in_medium(frame.medium, frame.camera, centre, *at(frame.depth, x, y));
+            vec3 added = pixel.emitted;
+            if (pyramid.top > 0)
+                added += gathered(radiance, stack, spread_stack, separated, separated_stack, pyramid, frame.filter, centre,
+                                  pixel.spread);
+            else
+                added += pixel.share * finite_or_zero(vec3(color));
+            vec3 result = compose_radiance(vec3(color), pixel.transmittance, added, frame.output_limit);
+            store(frame.output, x, y, vec4(result, color.w));
+            if (frame.transmittance.data)
+                store(frame.transmittance, x, y, vec4(pixel.transmittance, 1.0f));
+            if (frame.optical_depth.data)
+                store(frame.optical_depth, x, y, vec4(optical_depth(frame.medium, pixel.density), 1.0f));
+            if (frame.scattered.data)
+                store(frame.scattered, x, y, vec4(added, 1.0f));
+            if (frame.blur_radius.data)
+                *at(frame.blur_radius, x, y) = pixel.spread;
+        }
+    });
+}
+
+}  // namespace
+
+brume_status execute_cpu(const brume_services &services, brume_host host, const State &state,
+                         const brume_plugin_frame &frame)
+{
+    Frame f{services, host, state, medium_of(*frame.scene), camera_of(*frame.scene), state.parameters.filter,
+            frame.scene->output_limit};
+    f.filter.top = state.top;
+    f.filter.separation_level = float(state.parameters.separation_fraction * state.top);
+    const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
+        {frame.color, &f.color},
+        {frame.depth, &f.depth},
+        {frame.output, &f.output},
+        {state.radiance, &f.radiance},
+        {state.radiance_stack, &f.radiance_stack},
+        {state.spread_stack, &f.spread_stack},
+        {state.separated, &f.separated},
+        {state.separated_stack, &f.separated_stack},
+        {frame.transmittance, &f.transmittance},
+        {frame.optical_depth, &f.optical_depth},
+        {frame.scattered, &f.scattered},
+        {frame.blur_radius, &f.blur_radius},
+    };
+    for (auto &[image, pixels] : images)
+        if (brume_status s = f.map(image, *pixels))
+            return s;
+    if (state.top > 0) {
+        if (brume_status s = scatter(f))
+            return s;
+        if (brume_status s = downsample(f))
+            return s;
+    }
+    return compose(f);
+}
+
+}  // namespace multiscatter

@@ -1,0 +1,232 @@
+// multiscatter: what surfaces send to the camera, attenuated and blurred by the medium between (Iser 2018).
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "state.h"
+
+namespace multiscatter {
+namespace {
+
+using brume::maths_float::level_size;
+
+class Planner {
+public:
+    Planner(const brume_services &services, brume_host host, const brume_plugin_request &request)
+        : services_(services), host_(host), request_(request)
+    {
+    }
+
+    brume_status plan(std::unique_ptr<State> &out);
+
+private:
+    brume_status drop(const char *name, const std::string &reason) { return entry(false, name, reason, 0, 0); }
+    brume_status run(const char *name, const std::string &reason, double bytes_per_pixel, double operations_per_pixel)
+    {
+        double pixels = double(request_.width) * request_.height;
+        return entry(true, name, reason, pixels * bytes_per_pixel, pixels * operations_per_pixel);
+    }
+    brume_status entry(bool runs, const char *name, const std::string &reason, double bytes, double operations)
+    {
+        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        return services_.add_entry(host_, &e);
+    }
+    brume_status image(const char *label, int width, int height, int channels, brume_plugin_image &out)
+    {
+        return services_.create_image(host_, label, width, height, channels, &out);
+    }
+
+    double largest_blur() const;
+    brume_status plan_levels(State &state);
+    brume_status plan_paper(State &state);
+
+    const brume_services &services_;
+    brume_host host_;
+    const brume_plugin_request &request_;
+};
+
+bool any(const float (&v)[3])
+{
+    return v[0] > 0 || v[1] > 0 || v[2] > 0;
+}
+
+// Widest W_px at any distance, where the density is constant: f rho sqrt(kappa rho D / (8 + 4/3 a kappa (rho D)^2)) is
+// largest at (rho D)^2 = 6 / (a kappa). Infinite without absorption, or where the density varies.
+double Planner::largest_blur() const
+{
+    const auto &m = request_.scene->medium;
+    if (request_.animated || m.term_count > 0)
+        return INFINITY;
+    auto mean = [&](const float (&v)[3]) {
+        return double(v[0]) * m.luminance[0] + double(v[1]) * m.luminance[1] + double(v[2]) * m.luminance[2];
+    };
+    double kappa = mean(m.scattering) * (1 - m.asymmetry), a = mean(m.absorption);
+    if (kappa <= 0)
+        return 0;
+    if (a <= 0)
+        return INFINITY;
+    double focal = std::sqrt(double(request_.scene->camera.focal[0]) * request_.scene->camera.focal[1]);
+    double p = std::sqrt(6 / (a * kappa));
+    return focal * m.constant * std::sqrt(kappa * p / (8 + 4.0 / 3.0 * a * kappa * p * p));
+}
+
+brume_status Planner::plan_levels(State &state)
+{
+    int full = 0;
+    while ((1 << full) < std::max(state.width, state.height))
+        ++full;
+    const Parameters &p = state.parameters;
+    state.top = p.levels > 0 ? std::min(p.levels, full) : full;
+    if (p.levels > 0 && p.levels < full)
+        if (brume_status s = drop("levels", "levels " + std::to_string(p.levels + 1) + " to " + std::to_string(full) +
+                                                ": the parameter `levels` stops there"))
+            return s;
+    // The field of view may still change per frame; half of it either way is one level.
+    double blur = largest_blur();
+    if (std::isfinite(blur)) {
+        int needed = std::max(0, int(std::ceil(std::log2(std::max(blur, 1e-6) / p.filter.scale)))) + 2;
+        if (needed < state.top) {
+            state.top = needed;
+            char text[128];
+            std::snprintf(text, sizeof text, "levels above %d: the largest blur is %.3g px at any distance", needed, blur);
+            return drop("levels", text);
+        }
+    }
+    return BRUME_OK;
+}
+
+brume_status Planner::plan_paper(State &state)
+{
+    const brume::maths_float::Filter &f = state.parameters.filter;
+    auto check = [](std::initializer_list<brume_status> results) {
+        for (brume_status s : results)
+            if (s)
+                return s;
+        return brume_status(BRUME_OK);
+    };
+    brume_status s = plan_levels(state);
+    if (s)
+        return s;
+    if (state.top == 0) {
+        s = drop("pyramid", "one pixel, or no blur: scattered light stays where it is");
+        if (s)
+            return s;
+    } else {
+        int stack_w = level_size({state.width, state.height}, 1).x;
+        int stack_h = stack_height(state.width, state.height, state.top);
+        double taps = state.parameters.taps * state.parameters.taps;
+        bool blurring = f.density_blurring != 0, separation = f.separation != 0;
+        s = check({image("radiance", state.width, state.height, 4, state.radiance),
+                   image("radiance levels", stack_w, stack_h, 4, state.radiance_stack),
+                   blurring ? image("spread levels", stack_w, stack_h, 1, state.spread_stack) : BRUME_OK,
+                   separation ? image("separated", state.width, state.height, 4, state.separated) : BRUME_OK,
+                   separation ? image("separated levels", stack_w, stack_h, 4, state.separated_stack) : BRUME_OK,
+                   run("scatter", "splits radiance into what arrives straight and what was scattered",
+                       16 + 4 + 16 + (separation ? 16 : 0), 120),
+                   run("downsample", "levels 1 to " + std::to_string(state.top) + " of the pyramid",
+                       (16 + 16 / 3.0) * (separation ? 2 : 1) * 1.33 + (blurring ? 4 / 3.0 : 0),
+                       taps / 3 * (20 + (blurring ? 4 : 0) + (separation ? 16 : 0))),
+                   blurring ? BRUME_OK : drop("density blurring", "switched off"),
+                   f.masking ? BRUME_OK : drop("masking", "switched off"),
+                   separation ? BRUME_OK : drop("separation", "switched off (the default)")});
+        if (s)
+            return s;
+        double fetches = f.fetch == brume::maths_float::fetch_linear_bilinear ? 2 : f.fetch == brume::maths_float::fetch_linear_bicubic ? 8 : 16;
+        s = run("compose", "fetches each pixel's level and adds what arrives straight",
+                16 + 4 + 16 + 16 * 1.33 + (blurring ? 4 : 0) + (separation ? 16 * 1.33 : 0),
+                120 + fetches * (30 + (blurring ? 10 : 0) + (separation ? 30 : 0)));
+        if (s)
+            return s;
+    }
+    if (state.top == 0) {
+        s = run("compose", "attenuates; scattered light stays in its pixel", 16 + 4 + 16, 130);
+        if (s)
+            return s;
+    }
+    if (request_.backend == BRUME_BACKEND_GL)
+        s = compile_programs(services_, host_, request_.outputs, state);
+    return s;
+}
+
+brume_status Planner::plan(std::unique_ptr<State> &out)
+{
+    const auto &m = request_.scene->medium;
+    bool scatters = request_.animated || any(m.scattering);
+    bool absorbs = request_.animated || any(m.absorption);
+    bool emits = request_.animated || any(m.emission);
+    bool dense = request_.animated || m.constant > 0 || m.term_count > 0;
+    if (!request_.scene->has_medium)
+        return drop("multiscatter", "the scene has no medium");
+    if (!dense || !(scatters || absorbs || emits)) {
+        if (request_.outputs == 0)
+            return drop("multiscatter", dense ? "the medium neither scatters, absorbs nor emits"
+                                              : "the medium's density is zero everywhere");
+    }
+    auto state = std::make_unique<State>();
+    state->parameters = read_parameters(request_.parameters);
+    state->width = request_.width;
+    state->height = request_.height;
+    state->scatters = scatters;
+    brume_status s = BRUME_OK;
+    if (scatters)
+        s = services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW, "the blur's width in pixels follows from the field of view");
+    if (s)
+        return s;
+    if (state->parameters.kernel == Kernel::reference) {
+        if (request_.backend != BRUME_BACKEND_CPU)
+            return services_.fail(host_, BRUME_ERROR_UNSUPPORTED,
+                                  "kernel: reference; expected paper on the GL backend (the reference is exact, in double, on the CPU)");
+        s = run("reference", "exact splatting in double", 52, 1e5);
+    } else if (!scatters) {
+        s = drop("pyramid", "the medium does not scatter: nothing to blur");
+        if (!s)
+            s = run("compose", "attenuates and adds the medium's own light", 16 + 4 + 16, 100);
+        if (!s && request_.backend == BRUME_BACKEND_GL)
+            s = compile_programs(services_, host_, request_.outputs, *state);
+    } else {
+        s = plan_paper(*state);
+    }
+    if (!s)
+        out = std::move(state);
+    return s;
+}
+
+brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *request, void **out)
+{
+    std::unique_ptr<State> state;
+    brume_status s = Planner(*services, host, *request).plan(state);
+    *out = state.release();
+    return s;
+}
+
+brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
+{
+    const State &state = *static_cast<const State *>(opaque);
+    if (state.parameters.kernel == Kernel::reference)
+        return execute_reference(*services, host, state, *frame);
+    return state.compose ? execute_gl(*services, host, state, *frame) : execute_cpu(*services, host, state, *frame);
+}
+
+}  // namespace
+
+int stack_height(int width, int height, int top)
+{
+    return brume::maths_float::level_row({width, height}, top + 1);
+}
+
+}  // namespace multiscatter
+
+BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
+{
+    using namespace multiscatter;
+    static const brume_effect effect{
+        sizeof(brume_effect), BRUME_PLUGIN_ABI, "multiscatter",
+        "attenuates the image and blurs it by multiple scattering (Iser 2018)", 100, BRUME_THREADS_SAFE,
+        BRUME_WANTED_WITH_MEDIUM,
+        BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0,
+        uint32_t(parameter_table().size()), parameter_table().data(), plan, execute,
+        [](void *state) { delete static_cast<State *>(state); }};
+    return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
+}

@@ -1,0 +1,92 @@
+#include "parameters.h"
+
+namespace multiscatter {
+namespace {
+
+enum Index {
+    kernel,
+    kernel_size,
+    fetch,
+    levels,
+    level_scale,
+    masking,
+    mask_width,
+    density_blurring,
+    separation,
+    separation_luminance,
+    separation_luminance_width,
+    separation_density,
+    separation_density_width,
+    separation_level,
+    count
+};
+
+constexpr brume_parameter_info choice(const char *name, const char *choices, double first, const char *help)
+{
+    return {sizeof(brume_parameter_info), BRUME_PARAMETER_CHOICE, 0, 0, first, name, "", help, choices};
+}
+
+constexpr brume_parameter_info boolean(const char *name, bool first, const char *help)
+{
+    return {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0, 1, first ? 1.0 : 0.0, name, "", help, ""};
+}
+
+constexpr brume_parameter_info number(const char *name, double minimum, double maximum, double first, const char *unit,
+                                      const char *help)
+{
+    return {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, minimum, maximum, first, name, unit, help, ""};
+}
+
+constexpr brume_parameter_info integer(const char *name, double minimum, double maximum, double first, const char *unit,
+                                       const char *help)
+{
+    return {sizeof(brume_parameter_info), BRUME_PARAMETER_INTEGER, minimum, maximum, first, name, unit, help, ""};
+}
+
+constexpr brume_parameter_info table[count] = {
+    choice("kernel", "paper|reference", 0,
+           "paper: the hierarchical filter of Iser 2018; reference: exact splatting in double, CPU only, minutes a frame"),
+    choice("kernel_size", "2x2|4x4|6x6", 1, "kernel between pyramid levels; larger is smoother and slower"),
+    choice("fetch", "linear_bilinear|linear_bicubic|cubic_bicubic", 1,
+           "interpolation across and within levels; linear_bilinear shows blocks in motion"),
+    integer("levels", 0, 16, 0, "", "coarsest pyramid level K; 0: down to 1 x 1. Fewer are cheaper and cap the blur"),
+    number("level_scale", 0.1, 10, 0.86, "", "c: blur deviation of level k is taken as c 2^k pixels"),
+    boolean("masking", true, "keep light that spreads little out of coarse levels (loses about half of a uniform image's light)"),
+    number("mask_width", 0, 100, 2, "", "epsilon: width of that mask as a multiple of its threshold"),
+    boolean("density_blurring", true, "blur the deviation before choosing a level: no edges where depth jumps"),
+    boolean("separation", false, "filter bright pixels in thin fog apart from the rest"),
+    number("separation_luminance", 0, 1e10, 1, "radiance", "luminance above which pixels are separated"),
+    number("separation_luminance_width", 0, 1e10, 1, "radiance", "width of that threshold"),
+    number("separation_density", 0, 1e10, 50, "m", "density integral below which pixels are separated"),
+    number("separation_density_width", 0, 1e10, 25, "m", "width of that threshold"),
+    number("separation_level", 0, 1, 0.7, "", "level, as a fraction of K, from which separated light takes its deviation"),
+};
+
+}  // namespace
+
+std::span<const brume_parameter_info> parameter_table()
+{
+    return table;
+}
+
+Parameters read_parameters(const double *values)
+{
+    Parameters p{};
+    p.kernel = Kernel(int(values[kernel]));
+    p.taps = 2 + 2 * int(values[kernel_size]);
+    p.levels = int(values[levels]);
+    p.separation_fraction = values[separation_level];
+    p.filter.fetch = int(values[fetch]);
+    p.filter.masking = int(values[masking]);
+    p.filter.density_blurring = int(values[density_blurring]);
+    p.filter.separation = int(values[separation]);
+    p.filter.scale = float(values[level_scale]);
+    p.filter.mask_width = float(values[mask_width]);
+    p.filter.bright = float(values[separation_luminance]);
+    p.filter.bright_width = float(values[separation_luminance_width]);
+    p.filter.dense = float(values[separation_density]);
+    p.filter.dense_width = float(values[separation_density_width]);
+    return p;
+}
+
+}  // namespace multiscatter

@@ -1,0 +1,24 @@
+#pragma once
+#include <span>
+
+#include <brume/brume_plugin.h>
+
+#include "maths.hpp"
+
+namespace multiscatter {
+
+enum class Kernel { paper, reference };
+
+// The effect's parameters as its passes read them. Defaults are the paper's.
+struct Parameters {
+    Kernel kernel;
+    int taps;  // of the pyramid's kernel: 2, 4 or 6
+    int levels;
+    double separation_fraction;  // k_ssc / K
+    brume::maths_float::Filter filter;  // `top` and `separation_level` are the plan's to set
+};
+
+std::span<const brume_parameter_info> parameter_table();
+Parameters read_parameters(const double *values);
+
+}  // namespace multiscatter

@@ -1,0 +1,48 @@
+#pragma once
+#include <vector>
+
+#include <brume/brume_plugin.h>
+
+#include "parameters.h"
+
+namespace multiscatter {
+
+// What one plan of this effect holds. Images that a plan does not need are NULL.
+struct State {
+    Parameters parameters;
+    int width = 0;
+    int height = 0;
+    int top = 0;            // K; 0: no pyramid
+    bool scatters = false;  // sigma_s is not zero
+
+    // Level 0 of a pyramid and, stacked, its levels 1 to K.
+    brume_plugin_image radiance = nullptr;         // RGB: L_sc, A: W
+    brume_plugin_image radiance_stack = nullptr;
+    brume_plugin_image spread_stack = nullptr;     // W blurred; its level 0 is radiance's A
+    brume_plugin_image separated = nullptr;        // RGB: L_ssc, A: W
+    brume_plugin_image separated_stack = nullptr;
+
+    // GL programs; NULL on the CPU.
+    brume_program scatter = nullptr;
+    brume_program downsample = nullptr;
+    brume_program compose = nullptr;
+};
+
+// The passes of kernel `paper` on either backend, and of kernel `reference` on the CPU. They return the first failure.
+brume_status execute_cpu(const brume_services &services, brume_host host, const State &state,
+                         const brume_plugin_frame &frame);
+brume_status execute_gl(const brume_services &services, brume_host host, const State &state,
+                        const brume_plugin_frame &frame);
+brume_status execute_reference(const brume_services &services, brume_host host, const State &state,
+                               const brume_plugin_frame &frame);
+
+brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state);
+
+// The scene as the maths' types.
+brume::maths_float::Medium medium_of(const brume_plugin_scene &scene);
+brume::maths_float::Camera camera_of(const brume_plugin_scene &scene);
+
+// Rows of the image that holds levels 1 to K.
+int stack_height(int width, int height, int top);
+
+}  // namespace multiscatter

@@ -1,0 +1,71 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <new>
+#include <string>
+
+#include <brume/brume.h>
+
+#include "core/context.h"
+#include "core/error.h"
+#include "core/plan.h"
+#include "core/scene.h"
+
+// What the opaque handles point to. Each keeps the context alive.
+struct brume_context_t {
+    std::shared_ptr<brume::Context> context;
+};
+
+struct brume_scene_t {
+    std::shared_ptr<brume::Context> context;
+    brume::Scene scene;
+};
+
+struct brume_plan_t {
+    std::shared_ptr<brume::Context> context;
+    std::unique_ptr<brume_host_t> plan;
+};
+
+namespace brume::api {
+
+// The calling thread's message for a context (nullptr: for calls without one).
+void set_message(const Context *context, const std::string &message);
+const std::string &message_of(const Context *context);
+void forget_messages(const Context *context);
+
+// The one exception barrier.
+template <class Function> brume_status barrier(const Context *context, Function function)
+{
+    auto failed = [&](brume_status status, const char *message) {
+        try {
+            set_message(context, message);
+            if (context)
+                context->log(BRUME_LOG_ERROR, message);
+        } catch (...) {
+        }
+        return status;
+    };
+    try {
+        function();
+        return BRUME_OK;
+    } catch (const Error &error) {
+        return failed(error.status(), error.what());
+    } catch (const std::bad_alloc &) {
+        return failed(BRUME_ERROR_MEMORY, "out of memory");
+    } catch (const std::exception &error) {
+        return failed(BRUME_ERROR_INTERNAL, error.what());
+    } catch (...) {
+        return failed(BRUME_ERROR_INTERNAL, "unknown exception");
+    }
+}
+
+// A caller's camera, by the size it gave.
+brume_camera read_camera(const brume_camera *given, const char *name);
+
+inline void expect(bool condition, const char *message)
+{
+    if (!condition)
+        throw Error(BRUME_ERROR_ARGUMENT, message);
+}
+
+}  // namespace brume::api

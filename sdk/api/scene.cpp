@@ -1,0 +1,188 @@
+#include <cmath>
+
+#include "api/handles.h"
+#include "api/structs.h"
+#include "core/scene_check.h"
+#include "core/view.h"
+
+using namespace brume;
+using namespace brume::api;
+
+namespace {
+
+template <class Function> brume_status with_scene(brume_scene scene, Function function)
+{
+    if (!scene)
+        return barrier(nullptr, [] { expect(false, "scene: NULL"); });
+    return barrier(scene->context.get(), [&] { function(scene->scene); });
+}
+
+Number3 numbers(const double (&values)[3])
+{
+    return {Number(values[0]), Number(values[1]), Number(values[2])};
+}
+
+DensityTerm read_term(const brume_density_term *given, size_t index)
+{
+    std::string name = "brume_medium.terms[" + std::to_string(index) + "]";
+    brume_density_term term = BRUME_DENSITY_TERM_INIT;
+    term = read_struct(given, term, name.c_str(), &brume_density_term::type, &brume_density_term::value,
+                       &brume_density_term::falloff, &brume_density_term::direction, &brume_density_term::origin);
+    return {term.type, term.value, term.falloff, numbers(term.direction), numbers(term.origin)};
+}
+
+EffectSettings &settings_of(Scene &scene, const Effect &effect)
+{
+    for (auto &settings : scene.effects)
+        if (settings.name == effect.name)
+            return settings;
+    return scene.effects.emplace_back(EffectSettings{effect.name, {}});
+}
+
+}  // namespace
+
+extern "C" {
+
+brume_status brume_scene_create(brume_context context, brume_scene *out)
+{
+    return brume_scene_create_from_text(context, nullptr, 0, nullptr, out);
+}
+
+brume_status brume_scene_create_from_text(brume_context context, const char *text, size_t length, const char *name,
+                                          brume_scene *out)
+{
+    if (out)
+        *out = nullptr;
+    if (!context)
+        return barrier(nullptr, [] { expect(false, "context: NULL"); });
+    return barrier(context->context.get(), [&] {
+        expect(out, "out: NULL");
+        expect(text || length == 0, "text: NULL");
+        Scene scene;
+        if (text)
+            scene = parse_scene(std::string(text, length), name ? name : "scene", context->context->effects);
+        *out = new brume_scene_t{context->context, std::move(scene)};
+    });
+}
+
+void brume_scene_destroy(brume_scene scene)
+{
+    delete scene;
+}
+
+size_t brume_scene_schema(brume_context context, char *buffer, size_t capacity)
+{
+    std::string schema;
+    if (context)
+        barrier(context->context.get(), [&] { schema = scene_schema(context->context->effects); });
+    return copy_text(schema, buffer, capacity);
+}
+
+brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *given)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        if (!given) {
+            scene.medium.reset();
+            return;
+        }
+        brume_medium medium = BRUME_MEDIUM_INIT;
+        medium = read_struct(given, medium, "brume_medium", &brume_medium::term_count, &brume_medium::scattering,
+                             &brume_medium::absorption, &brume_medium::emission, &brume_medium::g,
+                             &brume_medium::visibility, &brume_medium::droplet_diameter, &brume_medium::terms);
+        Medium result;
+        result.scattering = numbers(medium.scattering);
+        result.absorption = numbers(medium.absorption);
+        result.emission = numbers(medium.emission);
+        result.g = medium.g;
+        if (medium.visibility != 0)
+            result.visibility = medium.visibility;
+        if (medium.droplet_diameter != 0)
+            result.droplet_diameter = medium.droplet_diameter;
+        expect(medium.terms || medium.term_count == 0, "brume_medium.terms: NULL with a term_count above 0");
+        expect(medium.term_count <= 4096, "brume_medium.term_count: expected 0 to 4096");
+        auto bytes = reinterpret_cast<const unsigned char *>(medium.terms);
+        for (size_t i = 0; i < medium.term_count; ++i)
+            result.density.push_back(
+                read_term(reinterpret_cast<const brume_density_term *>(bytes + i * medium.terms->struct_size), i));
+        check_medium(result);
+        scene.medium = std::move(result);
+    });
+}
+
+brume_status brume_scene_set_camera(brume_scene handle, const brume_camera *given)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        brume_camera camera = read_camera(given, "brume_camera");
+        check_camera(camera);
+        scene.camera = {};
+        if (camera.given & BRUME_CAMERA_FIELD_OF_VIEW) {
+            scene.camera.vertical_fov = camera.vertical_fov;
+            scene.camera.pixel_aspect = camera.pixel_aspect;
+            scene.camera.center = {Number(camera.center[0]), Number(camera.center[1])};
+        }
+        if (camera.given & BRUME_CAMERA_POSE) {
+            scene.camera.camera_to_world.emplace();
+            for (size_t i = 0; i < 16; ++i)
+                (*scene.camera.camera_to_world)[i] = camera.camera_to_world[i];
+        }
+    });
+}
+
+brume_status brume_scene_get_camera_given(brume_scene handle, uint32_t *given)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        expect(given, "given: NULL");
+        const Camera &camera = scene.camera;
+        *given = (camera.vertical_fov || camera.horizontal_fov ? BRUME_CAMERA_FIELD_OF_VIEW : 0u) |
+                 (camera.camera_to_world ? BRUME_CAMERA_POSE : 0u);
+    });
+}
+
+brume_status brume_scene_set_metres_per_unit(brume_scene handle, double metres)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        expect(metres >= 1e-12 && metres <= 1e12, "metres: expected 1e-12 to 1e12");
+        scene.metres_per_unit = metres;
+    });
+}
+
+brume_status brume_scene_set_luminance_weights(brume_scene handle, const double weights[3])
+{
+    return with_scene(handle, [&](Scene &scene) {
+        expect(weights, "weights: NULL");
+        for (int i = 0; i < 3; ++i)
+            expect(weights[i] >= 0 && weights[i] <= 1, "weights: expected numbers from 0 to 1");
+        expect(std::abs(weights[0] + weights[1] + weights[2] - 1) < 1e-3, "weights: expected a sum of 1");
+        scene.luminance = {weights[0], weights[1], weights[2]};
+    });
+}
+
+brume_status brume_scene_set_text(brume_scene handle, const char *effect, const char *parameter, const char *value)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        expect(effect, "effect: NULL");
+        expect(!parameter || value, "value: NULL");
+        const Effect &found = handle->context->effects.find(effect);
+        if (parameter) {
+            const Parameter &p = found.parameters[find_parameter(found, parameter)];
+            double number = parameter_from_text(found, p, value);
+            settings_of(scene, found).parameters[p.name] = number;
+        } else {
+            settings_of(scene, found);
+        }
+    });
+}
+
+brume_status brume_scene_set_number(brume_scene handle, const char *effect, const char *parameter, double value)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        expect(effect, "effect: NULL");
+        expect(parameter, "parameter: NULL");
+        const Effect &found = handle->context->effects.find(effect);
+        const Parameter &p = found.parameters[find_parameter(found, parameter)];
+        double number = parameter_from_number(found, p, value);
+        settings_of(scene, found).parameters[p.name] = number;
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,52 @@
+#include "core/context.h"
+
+#include <filesystem>
+
+#include <dlfcn.h>
+
+#include "core/error.h"
+
+namespace brume {
+namespace {
+
+// lib/brume/ beside the file this code was loaded from: neither the working directory nor the environment can put an
+// effect in front of ours.
+std::string own_plugin_directory()
+{
+    Dl_info info{};
+    if (!dladdr(reinterpret_cast<void *>(&own_plugin_directory), &info) || !info.dli_fname)
+        return {};
+    std::error_code error;
+    auto file = std::filesystem::canonical(info.dli_fname, error);
+    return error ? std::string() : (file.parent_path() / "brume").string();
+}
+
+std::unique_ptr<Backend> create_backend(const brume_context_desc &desc, const Log &log)
+{
+    GlOptions gl{desc.gl_context == BRUME_GL_BORROWED, desc.gl_state};
+    bool use_gl = desc.backend == BRUME_BACKEND_GL || (desc.backend == BRUME_BACKEND_AUTO && gl_is_hardware(gl));
+    return use_gl ? make_gl_backend(gl, log) : make_cpu_backend(desc.threads);
+}
+
+}  // namespace
+
+std::shared_ptr<Context> create_context(const brume_context_desc &desc)
+{
+    auto context = std::make_shared<Context>();
+    context->log = {desc.log, desc.log_user, desc.log_level};
+    context->backend = create_backend(desc, context->log);
+    context->device = context->backend->device();
+    std::vector<std::string> directories{own_plugin_directory()};
+    if (desc.plugin_directory) {
+        if (!std::filesystem::path(desc.plugin_directory).is_absolute())
+            throw Error(BRUME_ERROR_ARGUMENT, "plugin_directory: \"" + std::string(desc.plugin_directory) +
+                                                  "\"; expected an absolute path");
+        directories.emplace_back(desc.plugin_directory);
+    }
+    context->effects.load(directories, context->log);
+    context->log(BRUME_LOG_INFO, "backend " + context->device + ", " +
+                                     std::to_string(context->effects.all().size()) + " effects");
+    return context;
+}
+
+}  // namespace brume

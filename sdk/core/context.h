@@ -1,0 +1,21 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "core/backend.h"
+#include "core/effects.h"
+#include "core/log.h"
+
+namespace brume {
+
+struct Context {
+    Log log;
+    std::unique_ptr<Backend> backend;
+    EffectRegistry effects;
+    std::string device;  // what the backend says of itself, kept for callers of the C API
+};
+
+// Makes the backend asked for and loads the effects; throws Error.
+std::shared_ptr<Context> create_context(const brume_context_desc &desc);
+
+}  // namespace brume

@@ -1,0 +1,430 @@
+#include "core/plan.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/pixels.h"
+#include "core/services.h"
+#include "core/view.h"
+
+using namespace brume;
+
+namespace {
+
+// Nominal rates behind predicted_ms: one thread of a server CPU, a mid-range GPU, and Mesa's software GL. A calibration
+// per device would replace them.
+struct Rates {
+    double bytes_per_ms;
+    double operations_per_ms;
+};
+
+Rates nominal_rates(const Backend &backend)
+{
+    if (backend.kind() == BRUME_BACKEND_CPU)
+        return {4e6 * std::min(backend.threads(), 4u), 6e5 * backend.threads()};
+    bool software = backend.device().find("llvmpipe") != std::string::npos;
+    return software ? Rates{2e6, 4e5} : Rates{3e8, 1e9};
+}
+
+float output_limit(const brume_image *output)
+{
+    // Textures are asked for their own type by the backend; the smaller limit is safe for both.
+    return output && output->kind == BRUME_IMAGE_HOST && output->pixel == BRUME_PIXEL_F32 ? FLT_MAX : 65504.0f;
+}
+
+bool same_memory(const brume_image &a, const brume_image &b)
+{
+    if (a.kind != b.kind)
+        return false;
+    if (a.kind == BRUME_IMAGE_GL_TEXTURE)
+        return a.gl_texture == b.gl_texture;
+    HostPixels pa(a), pb(b);
+    return pa.begin() < pb.end() && pb.begin() < pa.end();
+}
+
+bool same_layout(const brume_image &a, const brume_image &b)
+{
+    HostPixels pa(a), pb(b);
+    return pa.data == pb.data && pa.pixel == pb.pixel && pa.channels == pb.channels &&
+           pa.pixel_stride == pb.pixel_stride && pa.row_stride == pb.row_stride;
+}
+
+// Contexts are independent, so a plugin that is not thread-safe may be reached from two of them at once.
+std::unique_lock<std::mutex> hold_if_unsafe(const brume_effect *table)
+{
+    static std::mutex guard;
+    static std::map<const brume_effect *, std::mutex> mutexes;
+    if (table->thread_safety != BRUME_THREADS_UNSAFE)
+        return {};
+    std::lock_guard lock(guard);
+    return std::unique_lock(mutexes[table]);
+}
+
+}  // namespace
+
+brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const brume_format &format)
+    : context_(std::move(context)), scene_(std::move(scene)), format_(format)
+{
+    context_->backend->invoke([&] {
+        int32_t largest = context_->backend->largest_size();
+        if (format_.width > largest || format_.height > largest)
+            throw Error(BRUME_ERROR_UNSUPPORTED, "format: " + std::to_string(format_.width) + " x " +
+                                                     std::to_string(format_.height) + "; this device takes up to " +
+                                                     std::to_string(largest) + " a side");
+        try {
+            plan_effects();
+        } catch (...) {
+            for (auto &planned : effects_)
+                if (planned.state)
+                    planned.effect->table->destroy(planned.state);
+            images_.clear();
+            throw;
+        }
+        timer_ = context_->backend->create_timer();
+    });
+}
+
+brume_host_t::~brume_host_t()
+{
+    try {
+        context_->backend->invoke([&] {
+            for (auto &planned : effects_)
+                if (planned.state)
+                    planned.effect->table->destroy(planned.state);
+            images_.clear();
+            between_[0] = between_[1] = nullptr;
+            programs_.clear();
+            timer_.reset();
+        });
+    } catch (const std::exception &error) {
+        context_->log(BRUME_LOG_ERROR, std::string("plan: ") + error.what());
+    }
+}
+
+bool brume_host_t::does_nothing() const
+{
+    return std::none_of(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
+}
+
+void brume_host_t::plan_effects()
+{
+    const auto &registry = context_->effects;
+    if (scene_.effects.empty()) {
+        for (const Effect &effect : registry.all())
+            if (effect.refusal.empty() && effect.wanted == BRUME_WANTED_WITH_MEDIUM && scene_.medium)
+                effects_.push_back({&effect, {}, nullptr, false});
+    } else {
+        for (const EffectSettings &settings : scene_.effects)
+            effects_.push_back({&registry.find(settings.name), {}, nullptr, false});
+    }
+    std::sort(effects_.begin(), effects_.end(), [](const auto &a, const auto &b) {
+        return std::pair(a.effect->order, a.effect->name) < std::pair(b.effect->order, b.effect->name);
+    });
+    if (!scene_.medium && scene_.effects.empty())
+        entries_.push_back({false, "brume", "medium", "the scene has no medium: nothing to do", 0, 0, 0});
+    if (scene_.light_count)
+        entries_.push_back({false, "brume", "lights",
+                            std::to_string(scene_.light_count) + " lights: no effect of this scene reads them", 0, 0, 0});
+
+    uint32_t filled = 0;
+    for (auto &planned : effects_) {
+        filled |= planned.effect->table->outputs;
+        for (const Parameter &parameter : planned.effect->parameters)
+            planned.parameters.push_back(parameter.default_value);
+        for (const EffectSettings &settings : scene_.effects)
+            if (settings.name == planned.effect->name)
+                for (auto &[name, value] : settings.parameters)
+                    planned.parameters[find_parameter(*planned.effect, name)] = value;
+    }
+    if (uint32_t missing = format_.outputs & ~filled)
+        throw Error(BRUME_ERROR_UNSUPPORTED,
+                    "format.outputs: no effect of this scene fills outputs " + std::to_string(missing));
+
+    brume_plugin_scene scene{};
+    scene.struct_size = sizeof scene;
+    View view = view_of(scene_, nullptr, 0, format_);
+    fill_camera(scene_, view, format_, BRUME_ORIGIN_TOP_LEFT, scene.camera);
+    scene.has_medium = scene_.medium ? 1 : 0;
+    evaluate_medium(scene_, 0, view.camera_to_world, scene.medium);
+    scene.output_limit = FLT_MAX;
+    for (auto &planned : effects_)
+        plan_effect(planned, scene);
+
+    auto running = std::count_if(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
+    if (running > 0) {
+        if (format_.depth_kind != BRUME_DEPTH_RAY)
+            need_camera(BRUME_CAMERA_FIELD_OF_VIEW, "the depth is planar: the field of view turns it into distance");
+        if (pose_matters(scene_))
+            need_camera(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
+                        "the medium's density changes with the position");
+    }
+    for (int i = 0; i < std::min<int>(int(running) - 1, 2); ++i) {
+        between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
+        image_bytes_ += uint64_t(format_.width) * uint64_t(format_.height) * 16;
+    }
+    Rates rates = nominal_rates(*context_->backend);
+    for (auto &entry : entries_)
+        entry.predicted_ms = std::max(double(entry.bytes) / rates.bytes_per_ms,
+                                      double(entry.operations) / rates.operations_per_ms);
+}
+
+void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene)
+{
+    brume_plugin_request request{};
+    request.struct_size = sizeof request;
+    request.backend = context_->backend->kind();
+    request.width = format_.width;
+    request.height = format_.height;
+    request.outputs = format_.outputs;
+    request.parameter_count = uint32_t(planned.parameters.size());
+    request.parameters = planned.parameters.data();
+    request.scene = &scene;
+    request.animated = scene_.animated() ? 1 : 0;
+    request.pose_matters = pose_matters(scene_) ? 1 : 0;
+    current_ = &planned;
+    failure_.clear();
+    size_t first = entries_.size();
+    brume_status status = BRUME_OK;
+    auto held = hold_if_unsafe(planned.effect->table);
+    try {
+        status = planned.effect->table->plan(&services(), this, &request, &planned.state);
+    } catch (const std::exception &error) {
+        throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in plan: " + error.what());
+    } catch (...) {
+        throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in plan");
+    }
+    if (status != BRUME_OK)
+        effect_failed(*planned.effect, "plan", status);
+    planned.runs = std::any_of(entries_.begin() + ptrdiff_t(first), entries_.end(), [](auto &e) { return e.runs; });
+    if (entries_.size() == first)
+        throw Error(BRUME_ERROR_PLUGIN,
+                    planned.effect->name + ": plan added no entry; expected one that runs or says why nothing does");
+    current_ = nullptr;
+}
+
+void brume_host_t::effect_failed(const Effect &effect, const char *callback, brume_status status) const
+{
+    bool known = status > BRUME_OK && status <= BRUME_ERROR_INTERNAL;
+    std::string message = failure_.empty() ? std::string("failed in ") + callback + " without a message" : failure_;
+    if (!known)
+        message += " (status " + std::to_string(status) + ", which no version of the ABI knows)";
+    throw Error(known ? status : BRUME_ERROR_PLUGIN, effect.name + ": " + message);
+}
+
+void brume_host_t::check_frame(const brume_frame &frame) const
+{
+    auto check = [&](const brume_image *image, const char *what, bool writable, uint32_t min_channels,
+                     uint32_t max_channels) {
+        if (!image)
+            throw Error(BRUME_ERROR_ARGUMENT, std::string(what) + ": NULL");
+        if (image->width != format_.width || image->height != format_.height)
+            throw Error(BRUME_ERROR_FORMAT, std::string(what) + ": " + std::to_string(image->width) + " x " +
+                                                std::to_string(image->height) + "; the plan was made for " +
+                                                std::to_string(format_.width) + " x " + std::to_string(format_.height));
+        if (image->channels < min_channels || image->channels > max_channels)
+            throw Error(BRUME_ERROR_ARGUMENT, std::string(what) + ".channels: " + std::to_string(image->channels) +
+                                                  "; expected " + std::to_string(min_channels) + " to " +
+                                                  std::to_string(max_channels));
+        if (image->origin != frame.color->origin)
+            throw Error(BRUME_ERROR_ARGUMENT, std::string(what) + ".origin: differs from color.origin");
+        context_->backend->check(*image, what, writable);
+    };
+    check(frame.color, "color", false, 1, 4);
+    check(frame.output, "output", true, 1, 4);
+    if (frame.output->channels != frame.color->channels)
+        throw Error(BRUME_ERROR_ARGUMENT, "output.channels: " + std::to_string(frame.output->channels) +
+                                              "; expected those of color, " + std::to_string(frame.color->channels));
+    if (!does_nothing())
+        check(frame.depth, "depth", false, 1, 1);
+    uint32_t seen = 0;
+    for (uint32_t i = 0; i < frame.extra_count; ++i) {
+        const auto &extra = frame.extra[i];
+        std::string name = "extra[" + std::to_string(i) + "]";
+        if (extra.output == 0 || (extra.output & (extra.output - 1)) || !(extra.output & format_.outputs))
+            throw Error(BRUME_ERROR_ARGUMENT, name + ".output: " + std::to_string(extra.output) +
+                                                  "; expected one of the flags in the plan's format.outputs");
+        if (seen & extra.output)
+            throw Error(BRUME_ERROR_ARGUMENT, name + ".output: given twice");
+        seen |= extra.output;
+        bool scalar = extra.output == BRUME_OUTPUT_BLUR_RADIUS;
+        check(extra.image, name.c_str(), true, scalar ? 1 : 3, scalar ? 1 : 4);
+        if (same_memory(*extra.image, *frame.color) || same_memory(*extra.image, *frame.output))
+            throw Error(BRUME_ERROR_ARGUMENT, name + ": shares memory with color or output");
+    }
+    if (same_memory(*frame.color, *frame.output) && frame.color->kind == BRUME_IMAGE_HOST &&
+        !same_layout(*frame.color, *frame.output))
+        throw Error(BRUME_ERROR_ARGUMENT, "output: overlaps color; expected the very same image or none of its memory");
+}
+
+void brume_host_t::execute(const brume_frame &frame)
+{
+    if (!frame.color || !frame.output)
+        throw Error(BRUME_ERROR_ARGUMENT, frame.color ? "output: NULL" : "color: NULL");
+    if (frame.camera)
+        check_camera(*frame.camera);
+    View view = view_of(scene_, frame.camera, frame.frame, format_);
+    if (uint32_t missing = camera_needs_ & ~view.given) {
+        std::string what = missing & BRUME_CAMERA_FIELD_OF_VIEW ? "a field of view" : "";
+        if (missing & BRUME_CAMERA_POSE)
+            what += what.empty() ? "a pose (camera_to_world)" : " and a pose (camera_to_world)";
+        throw Error(BRUME_ERROR_CAMERA, "camera: " + what + " is missing; needed because " + camera_reason_);
+    }
+    brume_plugin_scene scene{};
+    scene.struct_size = sizeof scene;
+    fill_camera(scene_, view, format_, frame.color->origin, scene.camera);
+    scene.has_medium = scene_.medium ? 1 : 0;
+    evaluate_medium(scene_, frame.frame, view.camera_to_world, scene.medium);
+    scene.output_limit = output_limit(frame.output);
+    context_->backend->invoke([&] {
+        check_frame(frame);
+        timer_->begin();
+        if (does_nothing())
+            copy_frame(frame);
+        else
+            run_effects(frame, scene);
+        timer_->end();
+        context_->backend->flush();
+    });
+}
+
+void brume_host_t::copy_frame(const brume_frame &frame)
+{
+    if (!same_memory(*frame.color, *frame.output))
+        context_->backend->copy(*frame.color, *frame.output);
+}
+
+void brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scene &scene)
+{
+    Backend &backend = *context_->backend;
+    bool in_place = same_memory(*frame.color, *frame.output) || same_memory(*frame.depth, *frame.output);
+    auto color = backend.import(*frame.color, 4);
+    auto depth = backend.import(*frame.depth, 1);
+    auto output = backend.begin_output(*frame.output, 4, !in_place);
+
+    brume_plugin_frame seen{};
+    seen.struct_size = sizeof seen;
+    seen.scene = &scene;
+    seen.depth = depth.get();
+    std::vector<std::shared_ptr<Image>> extras;
+    for (uint32_t i = 0; i < frame.extra_count; ++i) {
+        const auto &extra = frame.extra[i];
+        bool scalar = extra.output == BRUME_OUTPUT_BLUR_RADIUS;
+        extras.push_back(backend.begin_output(*extra.image, scalar ? 1 : 4, true));
+        seen.outputs |= extra.output;
+        brume_plugin_image *slots[] = {&seen.transmittance, &seen.optical_depth, &seen.scattered, &seen.blur_radius};
+        const uint32_t flags[] = {BRUME_OUTPUT_TRANSMITTANCE, BRUME_OUTPUT_OPTICAL_DEPTH, BRUME_OUTPUT_SCATTERED,
+                                  BRUME_OUTPUT_BLUR_RADIUS};
+        for (int k = 0; k < 4; ++k)
+            if (extra.output == flags[k])
+                *slots[k] = extras.back().get();
+    }
+
+    std::vector<PlannedEffect *> running;
+    for (auto &planned : effects_)
+        if (planned.runs)
+            running.push_back(&planned);
+    current_scene_ = &scene;
+    Image *input = color.get();
+    for (size_t i = 0; i < running.size(); ++i) {
+        seen.color = input;
+        seen.output = i + 1 == running.size() ? output.get() : between_[i % 2].get();
+        current_ = running[i];
+        failure_.clear();
+        brume_status status = BRUME_OK;
+        auto held = hold_if_unsafe(running[i]->effect->table);
+        try {
+            status = running[i]->effect->table->execute(&services(), this, running[i]->state, &seen);
+        } catch (const std::exception &error) {
+            throw Error(BRUME_ERROR_PLUGIN, running[i]->effect->name + ": threw in execute: " + error.what());
+        } catch (...) {
+            throw Error(BRUME_ERROR_PLUGIN, running[i]->effect->name + ": threw in execute");
+        }
+        if (status != BRUME_OK)
+            effect_failed(*running[i]->effect, "execute", status);
+        input = seen.output;
+    }
+    timer_->mark(-1);
+    backend.finish_output(*frame.output, *output);
+    for (uint32_t i = 0; i < frame.extra_count; ++i)
+        backend.finish_output(*frame.extra[i].image, *extras[i]);
+}
+
+std::vector<double> brume_host_t::measured_ms()
+{
+    std::vector<double> result;
+    context_->backend->invoke([&] { result = timer_->milliseconds(int(entries_.size())); });
+    return result;
+}
+
+brume_status brume_host_t::fail(brume_status status, const char *message)
+{
+    failure_ = message ? message : "";
+    return status;
+}
+
+void brume_host_t::add_entry(const brume_plugin_entry &entry)
+{
+    if (!entry.name || !entry.reason)
+        throw Error(BRUME_ERROR_ARGUMENT, "add_entry: name or reason is NULL");
+    entries_.push_back({entry.runs != 0, current_ ? current_->effect->name : "", entry.name, entry.reason, entry.bytes,
+                        entry.operations, 0});
+}
+
+void brume_host_t::need_camera(uint32_t needs, const std::string &reason)
+{
+    if ((needs & ~camera_needs_) == 0)
+        return;
+    camera_needs_ |= needs;
+    camera_reason_ += (camera_reason_.empty() ? "" : "; ") + reason;
+}
+
+brume_plugin_image brume_host_t::create_image(int32_t width, int32_t height, int32_t channels)
+{
+    int32_t largest = context_->backend->largest_size();
+    if (width < 1 || height < 1 || width > largest || height > largest ||
+        (channels != 1 && channels != 2 && channels != 4))
+        throw Error(BRUME_ERROR_ARGUMENT, std::to_string(width) + " x " + std::to_string(height) + " x " +
+                                              std::to_string(channels) + "; expected sides from 1 to " +
+                                              std::to_string(largest) + " and 1, 2 or 4 channels");
+    images_.push_back(context_->backend->create_image(width, height, channels, BRUME_PIXEL_F32));
+    image_bytes_ += uint64_t(width) * uint64_t(height) * uint64_t(channels) * 4;
+    return images_.back().get();
+}
+
+brume_program brume_host_t::compile(const char *name, const char *source, const char *defines)
+{
+    programs_.push_back(context_->backend->compile(name, source, defines));
+    return programs_.back().get();
+}
+
+int brume_host_t::entry_index(const char *name) const
+{
+    for (size_t i = 0; i < entries_.size() && name && current_; ++i)
+        if (entries_[i].runs && entries_[i].name == name && entries_[i].effect == current_->effect->name)
+            return int(i);
+    throw Error(BRUME_ERROR_PLUGIN, std::string("pass \"") + (name ? name : "NULL") +
+                                        "\" is not among the running entries of the plan");
+}
+
+void brume_host_t::run(const brume_plugin_pass &pass)
+{
+    timer_->mark(entry_index(pass.name));
+    context_->backend->run(pass, *current_scene_);
+}
+
+brume_status brume_host_t::rows(const char *name, int32_t count, int32_t grain, brume_rows_function function, void *user)
+{
+    if (!function || count < 0 || grain < 1)
+        throw Error(BRUME_ERROR_ARGUMENT, "rows: function NULL, count below 0 or grain below 1");
+    timer_->mark(entry_index(name));
+    return context_->backend->rows(count, grain, function, user);
+}
+
+brume_plugin_pixels brume_host_t::pixels(brume_plugin_image image)
+{
+    return context_->backend->pixels(*image);
+}

@@ -1,0 +1,80 @@
+#pragma once
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <brume/brume.h>
+#include <brume/brume_plugin.h>
+
+namespace brume {
+
+// A number that may change over the frames: linear between keys, constant outside them.
+struct Number {
+    std::vector<std::pair<double, double>> keys{{0.0, 0.0}};  // (frame, value), ascending frames, never empty
+
+    Number() = default;
+    Number(double value) : keys{{0.0, value}} {}
+    bool animated() const { return keys.size() > 1; }
+    double at(double frame) const;
+};
+
+using Number3 = std::array<Number, 3>;
+
+struct DensityTerm {
+    uint32_t type = BRUME_DENSITY_CONSTANT;
+    Number value = 1.0;
+    Number falloff = 0.0;                         // [1/m]
+    Number3 direction{Number(0.0), Number(1.0), Number(0.0)};
+    Number3 origin{};                             // scene units
+};
+
+struct Medium {
+    Number3 scattering{}, absorption{}, emission{};  // [1/m], [1/m], [radiance/m], at unit density
+    Number g = 0.0;
+    std::optional<Number> visibility;                // [m]
+    std::optional<Number> droplet_diameter;          // [um]
+    std::vector<DensityTerm> density;                // empty: constant 1
+};
+
+struct Camera {
+    std::optional<Number> vertical_fov;              // [rad]
+    std::optional<Number> horizontal_fov;            // [rad]; of the display window, used where vertical_fov is absent
+    Number pixel_aspect = 1.0;
+    std::array<Number, 2> center{Number(0.5), Number(0.5)};
+    std::optional<std::array<Number, 16>> camera_to_world;  // row-major
+};
+
+struct EffectSettings {
+    std::string name;
+    std::map<std::string, double> parameters;        // only those set; choices by index
+};
+
+struct Scene {
+    double metres_per_unit = 1.0;
+    std::array<double, 3> luminance{0.2126, 0.7152, 0.0722};
+    std::optional<Medium> medium;
+    Camera camera;
+    size_t light_count = 0;                          // lights that the file has; no effect reads them yet
+    std::vector<EffectSettings> effects;             // empty: what the content needs
+
+    bool animated() const;
+};
+
+class EffectRegistry;
+
+// Parses scene-file text; throws Error(BRUME_ERROR_SCENE) as "name:line:column: ...". `name` is the file's.
+Scene parse_scene(const std::string &text, const std::string &name, const EffectRegistry &effects);
+
+// JSON Schema of scene files with the parameters of these effects.
+std::string scene_schema(const EffectRegistry &effects);
+
+// Scene values at one frame, camera-relative, as effects see them. needs_pose: some density term depends on position.
+// Checks ranges that keys may leave; throws Error(BRUME_ERROR_ARGUMENT).
+bool pose_matters(const Scene &scene);
+void evaluate_medium(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
+                     brume_plugin_medium &out);
+
+}  // namespace brume

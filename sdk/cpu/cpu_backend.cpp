@@ -1,0 +1,238 @@
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <tuple>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "core/backend.h"
+#include "core/error.h"
+#include "core/pixels.h"
+
+namespace brume {
+namespace {
+
+struct CpuImage : Image {
+    float *data = nullptr;
+    int64_t row_stride = 0;  // in floats
+    std::vector<float> owned;
+};
+
+// Images that nobody holds wait here for the next plan of the same size.
+class Pool : public std::enable_shared_from_this<Pool> {
+public:
+    std::shared_ptr<CpuImage> take(int32_t width, int32_t height, int32_t channels)
+    {
+        std::unique_ptr<CpuImage> image;
+        {
+            std::lock_guard lock(mutex_);
+            auto found = free_.find({width, height, channels});
+            if (found != free_.end()) {
+                image = std::move(found->second);
+                free_.erase(found);
+            }
+        }
+        if (!image) {
+            image = std::make_unique<CpuImage>();
+            image->width = width;
+            image->height = height;
+            image->channels = channels;
+            image->row_stride = int64_t(width) * channels;
+            image->owned.resize(size_t(width) * size_t(height) * size_t(channels));
+            image->data = image->owned.data();
+            bytes_ += image->owned.size() * sizeof(float);
+        }
+        return {image.release(), [pool = shared_from_this()](CpuImage *back) { pool->give(back); }};
+    }
+
+    uint64_t bytes() const { return bytes_; }
+
+private:
+    void give(CpuImage *image)
+    {
+        std::lock_guard lock(mutex_);
+        free_.emplace(std::tuple(image->width, image->height, image->channels), image);
+    }
+
+    std::mutex mutex_;
+    std::multimap<std::tuple<int32_t, int32_t, int32_t>, std::unique_ptr<CpuImage>> free_;
+    std::atomic<uint64_t> bytes_ = 0;
+};
+
+class CpuTimer : public FrameTimer {
+public:
+    void begin() override { marks_.clear(); }
+    void mark(int entry) override { marks_.emplace_back(entry, Clock::now()); }
+    void end() override { marks_.emplace_back(-1, Clock::now()); }
+    std::vector<double> milliseconds(int entries) override
+    {
+        if (marks_.empty() || marks_.back().first != -1)
+            return {};
+        std::vector<double> sums(size_t(entries), 0.0);
+        for (size_t i = 0; i + 1 < marks_.size(); ++i)
+            if (marks_[i].first >= 0)
+                sums[size_t(marks_[i].first)] +=
+                    std::chrono::duration<double, std::milli>(marks_[i + 1].second - marks_[i].second).count();
+        return sums;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::vector<std::pair<int, Clock::time_point>> marks_;
+};
+
+class CpuBackend : public Backend {
+public:
+    explicit CpuBackend(uint32_t threads)
+        : threads_(threads ? threads : uint32_t(oneapi::tbb::info::default_concurrency())), arena_(int(threads_))
+    {
+    }
+
+    uint32_t kind() const override { return BRUME_BACKEND_CPU; }
+    std::string device() const override { return "CPU"; }
+    uint32_t threads() const override { return threads_; }
+    uint64_t host_bytes() const override { return pool_->bytes(); }
+    uint64_t device_bytes() const override { return 0; }
+    void invoke(const std::function<void()> &work) override { work(); }
+    int32_t largest_size() const override { return 65536; }
+
+    std::shared_ptr<Image> create_image(int32_t width, int32_t height, int32_t channels, uint32_t) override
+    {
+        return pool_->take(width, height, channels);
+    }
+
+    std::shared_ptr<Program> compile(const std::string &, const std::string &, const std::string &) override
+    {
+        throw Error(BRUME_ERROR_UNSUPPORTED, "compile: the CPU backend runs no shader programs");
+    }
+
+    std::unique_ptr<FrameTimer> create_timer() override { return std::make_unique<CpuTimer>(); }
+
+    void check(const brume_image &image, const char *what, bool) override
+    {
+        if (image.kind != BRUME_IMAGE_HOST)
+            throw Error(BRUME_ERROR_UNSUPPORTED,
+                        std::string(what) + ": a GL texture was given to a CPU context; expected host memory");
+    }
+
+    std::shared_ptr<Image> import(const brume_image &image, int32_t channels) override
+    {
+        HostPixels host(image);
+        if (host.packed_float(channels))
+            return wrap(image, host);
+        auto to = pool_->take(image.width, image.height, channels);
+        for_rows(image.height, [&](int y) {
+            float *row = to->data + y * to->row_stride;
+            channels == 1 ? load_row_scalar(host, y, row) : load_row_rgba(host, y, row);
+        });
+        return to;
+    }
+
+    std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) override
+    {
+        HostPixels host(image);
+        if (direct && host.packed_float(channels))
+            return wrap(image, host);
+        return pool_->take(image.width, image.height, channels);
+    }
+
+    void finish_output(const brume_image &image, Image &written) override
+    {
+        auto &from = static_cast<CpuImage &>(written);
+        HostPixels host(image);
+        if (from.data == reinterpret_cast<float *>(host.data))
+            return;
+        for_rows(image.height, [&](int y) {
+            const float *row = from.data + y * from.row_stride;
+            from.channels == 1 ? store_row_scalar(row, host, y) : store_row_rgba(row, host, y);
+        });
+    }
+
+    void copy(const brume_image &from, const brume_image &to) override
+    {
+        HostPixels a(from), b(to);
+        if (a.data == b.data)
+            return;
+        if (a.pixel == b.pixel && a.channels == b.channels) {
+            for_rows(from.height, [&](int y) {
+                for (int x = 0; x < a.width; ++x)
+                    std::memcpy(b.at(x, y), a.at(x, y), size_t(a.sample_size) * size_t(a.channels));
+            });
+            return;
+        }
+        auto image = import(from, 4);
+        finish_output(to, *image);
+    }
+
+    void flush() override {}
+
+    void run(const brume_plugin_pass &, const brume_plugin_scene &) override
+    {
+        throw Error(BRUME_ERROR_UNSUPPORTED, "run: the CPU backend runs no shader passes");
+    }
+
+    brume_status rows(int32_t count, int32_t grain, brume_rows_function function, void *user) override
+    {
+        // Blocks are fixed by grain alone and never by the number of threads, so an effect that sums over its block
+        // gives the same bits on any machine.
+        std::atomic<brume_status> status = BRUME_OK;
+        int32_t blocks = (count + grain - 1) / grain;
+        arena_.execute([&] {
+            oneapi::tbb::parallel_for(0, blocks, [&](int32_t block) {
+                if (status != BRUME_OK)
+                    return;
+                brume_status result = function(user, block * grain, std::min(count, (block + 1) * grain));
+                brume_status none = BRUME_OK;
+                if (result != BRUME_OK)
+                    status.compare_exchange_strong(none, result);
+            });
+        });
+        return status;
+    }
+
+    brume_plugin_pixels pixels(Image &image) override
+    {
+        auto &cpu = static_cast<CpuImage &>(image);
+        return {cpu.data, cpu.row_stride, cpu.width, cpu.height, cpu.channels, 0};
+    }
+
+private:
+    template <class Function> void for_rows(int height, Function function)
+    {
+        arena_.execute([&] {
+            oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, height, 16),
+                                      [&](const oneapi::tbb::blocked_range<int> &range) {
+                                          for (int y = range.begin(); y < range.end(); ++y)
+                                              function(y);
+                                      });
+        });
+    }
+
+    static std::shared_ptr<CpuImage> wrap(const brume_image &image, const HostPixels &host)
+    {
+        auto wrapped = std::make_shared<CpuImage>();
+        wrapped->width = image.width;
+        wrapped->height = image.height;
+        wrapped->channels = host.channels;
+        wrapped->data = reinterpret_cast<float *>(host.data);
+        wrapped->row_stride = host.row_stride / 4;
+        return wrapped;
+    }
+
+    uint32_t threads_;
+    oneapi::tbb::task_arena arena_;
+    std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_cpu_backend(uint32_t threads)
+{
+    return std::make_unique<CpuBackend>(threads);
+}
+
+}  // namespace brume

@@ -1,0 +1,186 @@
+// The hierarchical filter, kernel `paper` (Iser 2018 sec. 4, Fig. 4): the body of each of its passes.
+// Needs the other files here, and three image reads that GLSL has and maths_types.inc gives to C++:
+// texelFetch, and fetch_linear (bilinear at a texel position, where texel i has its centre at i; callers clamp).
+
+const int fetch_linear_bilinear = 0;
+const int fetch_linear_bicubic = 1;
+const int fetch_cubic_bicubic = 2;
+
+struct Filter {
+    int top;                // K, the coarsest level
+    int fetch;
+    int masking;
+    int density_blurring;
+    int separation;
+    float scale;            // c
+    float mask_width;       // epsilon
+    float bright;           // T_y
+    float bright_width;     // epsilon_y
+    float dense;            // T_d' [m at unit density]
+    float dense_width;      // epsilon_d'
+    float separation_level; // k_ssc
+};
+
+// ---- sec. 4.1: what the medium does to one pixel
+
+struct Pixel {
+    float density;       // P
+    float spread;        // W [px]
+    vec3 transmittance;
+    vec3 share;          // L_sc / L
+    vec3 emitted;
+};
+
+PURE Pixel pixel_in_medium(Medium medium, Camera camera, vec2 pixel, float raw_depth)
+{
+    Ray ray = pixel_ray(camera, pixel, raw_depth);
+    float p = ray.keep ? R(0.0) : density_integral(medium, ray.direction, ray.distance);
+    return Pixel(p, spread_pixels(medium, camera, p, ray.distance), transmittance(medium, p), scattered_share(medium, p),
+                 emitted(medium, p));
+}
+
+struct Sources {
+    vec4 spread;     // L_sc, W
+    vec4 separated;  // L_ssc, W
+};
+
+// L_sc and, of bright pixels in thin fog, L_ssc (sec. 4.3, radiance separation).
+PURE Sources scattered_sources(Medium medium, Filter f, Pixel pixel, vec3 color)
+{
+    vec3 l = finite_or_zero(color);
+    float m = R(0.0);
+    if (f.separation != 0)
+        m = soft_step(f.bright, f.bright_width, luminance(medium.luminance, l)) *
+            (R(1.0) - soft_step(f.dense - f.dense_width, f.dense_width, pixel.density));
+    vec3 sc = pixel.share * l;
+    return Sources(vec4(sc * (R(1.0) - m), pixel.spread), vec4(sc * m, pixel.spread));
+}
+
+// ---- sec. 4.2-4.3: one texel of level `level` from the finer level, whose first row in its image is finer_row
+
+PURE ivec2 finer_texel(ivec2 texel, int taps, int i, int j, ivec2 finer_size, int finer_row)
+{
+    ivec2 t = clamp(texel * 2 + ivec2(i, j) - (taps / 2 - 1), ivec2(0), finer_size - 1);
+    return ivec2(t.x, t.y + finer_row);
+}
+
+// (M[k] L[k-1]) * G, and the luminance-weighted mean of W over the same support. Black regions take the plain mean.
+PURE vec4 downsampled_radiance(sampler2D finer, ivec2 finer_size, int finer_row, ivec2 texel, int level, int taps, int masking,
+                          Filter f, vec3 weights)
+{
+    vec3 sum = vec3(R(0.0));
+    float y_sum = R(0.0);
+    float yw_sum = R(0.0);
+    for (int j = 0; j < taps; ++j) {
+        for (int i = 0; i < taps; ++i) {
+            vec4 t = texelFetch(finer, finer_texel(texel, taps, i, j, finer_size, finer_row), 0);
+            float g = kernel_weight(taps, i) * kernel_weight(taps, j);
+            float y = clamp(luminance(weights, vec3(t)), R(1e-20), R(1e30));
+            y_sum += y;
+            yw_sum += y * t.w;
+            sum += vec3(t) * (masking != 0 ? g * leak_mask(t.w, f.scale, f.mask_width, level) : g);
+        }
+    }
+    return vec4(sum, yw_sum / y_sum);
+}
+
+// W[k-1] * G, of the channel that holds W.
+PURE float downsampled_spread(sampler2D finer, ivec2 finer_size, int finer_row, ivec2 texel, int taps, int channel)
+{
+    float sum = R(0.0);
+    for (int j = 0; j < taps; ++j)
+        for (int i = 0; i < taps; ++i)
+            sum += kernel_weight(taps, i) * kernel_weight(taps, j) *
+                   texelFetch(finer, finer_texel(texel, taps, i, j, finer_size, finer_row), 0)[channel];
+    return sum;
+}
+
+// ---- sec. 4.2, 5: fetching at a pixel and a fractional level
+
+struct Pyramid {
+    ivec2 size;  // of level 0
+    int top;
+};
+
+PURE vec4 fetch_clamped(sampler2D image, vec2 position, ivec2 size, int row)
+{
+    vec2 p = clamp(position, vec2(R(0.0)), vec2(size - 1));
+    return fetch_linear(image, vec2(p.x, p.y + float(row)));
+}
+
+PURE vec4 fetch_in_level(sampler2D image, int level, int row, ivec2 size, vec2 pixel, bool cubic)
+{
+    vec2 position = level_position(pixel, level);
+    if (!cubic)
+        return fetch_clamped(image, position, size, row);
+    vec2 origin = floor(position);
+    vec2 f = position - origin;
+    vec4 x = cubic_taps(f.x);
+    vec4 y = cubic_taps(f.y);
+    return (fetch_clamped(image, origin + vec2(x.x, y.x), size, row) * x.z +
+            fetch_clamped(image, origin + vec2(x.y, y.x), size, row) * x.w) * y.z +
+           (fetch_clamped(image, origin + vec2(x.x, y.y), size, row) * x.z +
+            fetch_clamped(image, origin + vec2(x.y, y.y), size, row) * x.w) * y.w;
+}
+
+PURE vec4 fetch_level(sampler2D base, sampler2D stack, Pyramid pyramid, int level, vec2 pixel, bool cubic)
+{
+    if (level <= 0)
+        return fetch_in_level(base, 0, 0, pyramid.size, pixel, cubic);
+    int k = min(level, pyramid.top);
+    return fetch_in_level(stack, k, level_row(pyramid.size, k), level_size(pyramid.size, k), pixel, cubic);
+}
+
+// Weights of the levels floor(k) - 1 to floor(k) + 2 for a fraction f between floor(k) and the next.
+PURE vec4 level_weights(int mode, float f)
+{
+    return mode == fetch_cubic_bicubic ? cubic_weights(f) : vec4(R(0.0), R(1.0) - f, f, R(0.0));
+}
+
+// L[k] at a pixel, k in [0, K] fractional.
+PURE vec4 fetch_pyramid(sampler2D base, sampler2D stack, Pyramid pyramid, int mode, vec2 pixel, float level)
+{
+    int below = int(level);
+    vec4 weights = level_weights(mode, level - float(below));
+    vec4 sum = vec4(R(0.0));
+    for (int i = 0; i < 4; ++i)
+        if (weights[i] > R(0.0))
+            sum += weights[i] *
+                   fetch_level(base, stack, pyramid, below - 1 + i, pixel, mode != fetch_linear_bilinear);
+    return sum;
+}
+
+// The same of W blurred: level 0 is the radiance's fourth channel, the others are images of one.
+PURE float fetch_spread(sampler2D base, sampler2D stack, Pyramid pyramid, int mode, vec2 pixel, float level)
+{
+    int below = int(level);
+    vec4 weights = level_weights(mode, level - float(below));
+    float sum = R(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int k = below - 1 + i;
+        if (weights[i] > R(0.0)) {
+            vec4 t = fetch_level(base, stack, pyramid, k, pixel, mode != fetch_linear_bilinear);
+            sum += weights[i] * (k <= 0 ? t.w : t.x);
+        }
+    }
+    return sum;
+}
+
+// L'_sc + L'_ssc at one pixel. The level comes from W, blurred once more at the level that W itself asks for (sec. 4.3,
+// "Blurring": the paper blurs P, but in pixels W also depends on the distance, so W is what is blurred). The level of the
+// separated light comes from the luminance-weighted W at the fixed level k_ssc.
+PURE vec3 gathered(sampler2D radiance, sampler2D radiance_stack, sampler2D spread_stack, sampler2D separated,
+              sampler2D separated_stack, Pyramid pyramid, Filter f, vec2 pixel, float spread)
+{
+    float top = float(pyramid.top);
+    float level = spread_level(spread, f.scale, top);
+    if (f.density_blurring != 0)
+        level = spread_level(fetch_spread(radiance, spread_stack, pyramid, f.fetch, pixel, level), f.scale, top);
+    vec3 sum = vec3(fetch_pyramid(radiance, radiance_stack, pyramid, f.fetch, pixel, level));
+    if (f.separation != 0) {
+        float w = fetch_pyramid(separated, separated_stack, pyramid, f.fetch, pixel, f.separation_level).w;
+        float l = spread_level(w, f.scale, top);
+        sum += vec3(fetch_pyramid(separated, separated_stack, pyramid, f.fetch, pixel, l));
+    }
+    return sum;
+}

@@ -1,0 +1,16 @@
+// Stands before every program: what the other files take as given. shaders/maths.hpp is its C++ counterpart.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+// Marks every function of these files: C++ makes them inline.
+#define PURE
+
+// A literal of the precision that is compiled; C++ needs it spelled out.
+#define R(x) x
+
+// By bits: compilers may assume that isnan() and isinf() are false.
+bool is_finite(float x)
+{
+    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+uniform ivec2 brume_grid;

@@ -1,0 +1,56 @@
+// What a density integral P does to radiance. Needs scene.glsl, density.glsl.
+
+PURE float luminance(vec3 weights, vec3 color)
+{
+    return dot(weights, color);
+}
+
+PURE vec3 optical_depth(Medium medium, float p)
+{
+    return (medium.scattering + medium.absorption) * p;
+}
+
+// 1 - e^-x without cancellation, x >= 0.
+PURE float one_minus_exp(float x)
+{
+    return x < R(2.0) ? x * mean_exponential(x) : R(1.0) - exp(-x);
+}
+
+PURE vec3 transmittance(Medium medium, float p)
+{
+    return exp(-optical_depth(medium, p));
+}
+
+// The share of the source's radiance that was scattered but not absorbed: e^(-C_a P) (1 - e^(-C_s P)), Iser sec. 4.1.
+PURE vec3 scattered_share(Medium medium, float p)
+{
+    vec3 s = medium.scattering * p;
+    return exp(-medium.absorption * p) * vec3(one_minus_exp(s.x), one_minus_exp(s.y), one_minus_exp(s.z));
+}
+
+// The medium's own radiance: int C_e rho e^(-C_t P(t)) dt = C_e P phi(C_t P), exact for any density since only P enters.
+// Emitted light that scatters on its way is not followed. Saturates at C_e / C_t.
+PURE vec3 emitted(Medium medium, float p)
+{
+    vec3 tau = optical_depth(medium, p);
+    return medium.emission * p * vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
+}
+
+// A component that is not finite gives no light to others: one bad pixel must not blacken the frame.
+PURE vec3 finite_or_zero(vec3 color)
+{
+    return vec3(is_finite(color.x) ? color.x : R(0.0), is_finite(color.y) ? color.y : R(0.0),
+                is_finite(color.z) ? color.z : R(0.0));
+}
+
+PURE float composed(float source, float t, float added, float limit)
+{
+    return is_finite(source) ? clamp(source * t + added, -limit, limit) : source;
+}
+
+// L' = T L + added (Iser sec. 4.4), within what the output holds; a component that is not finite comes back unchanged.
+PURE vec3 compose_radiance(vec3 source, vec3 t, vec3 added, float limit)
+{
+    return vec3(composed(source.x, t.x, added.x, limit), composed(source.y, t.y, added.y, limit),
+                composed(source.z, t.z, added.z, limit));
+}

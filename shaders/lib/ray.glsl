@@ -1,0 +1,67 @@
+// The pixel's ray and the distance along it. Needs scene.glsl.
+
+// Stands for infinity where shaders may not rely on IEEE infinities: products with it stay finite in 32 bits.
+const float far_away = R(1e30);
+
+const int depth_planar = 0;
+const int depth_ray = 1;
+const int depth_inverse = 2;
+const int depth_normalized = 3;
+const int depth_device = 4;
+
+const int sky_fog = 0;
+const int sky_keep = 1;
+const int sky_clamp = 2;
+
+struct Ray {
+    vec3 direction;  // unit, camera space, looking down -z
+    float distance;  // to what the pixel shows [m], 0 to far_away
+    bool keep;       // a far pixel that is to have no medium in front of it
+};
+
+// Camera-space point of the pixel's ray at planar depth 1; pixel centres lie at half-integers.
+PURE vec3 ray_through(Camera camera, vec2 pixel)
+{
+    vec2 tangent = (pixel - camera.center) * camera.tangent_scale;
+    return vec3(tangent.x, tangent.y, -R(1.0));
+}
+
+// raw: the depth buffer's value; stretch: |ray_through|, the ray distance of planar depth 1.
+// far_away for whatever counts as far: NaN, infinities, >= far_distance, <= 0 (see BRUME_DEPTH_... in brume.h).
+PURE float ray_distance(Camera camera, float raw, float stretch)
+{
+    if (!is_finite(raw))
+        return far_away;
+    float along = raw * camera.metres_per_unit;
+    if (camera.depth_kind == depth_inverse) {
+        if (raw <= R(0.0))
+            return far_away;
+        along = min(camera.metres_per_unit / raw, far_away);
+    } else if (camera.depth_kind == depth_normalized) {
+        if (raw >= R(1.0))
+            return far_away;
+        along = camera.depth_range.x + max(raw, R(0.0)) * (camera.depth_range.y - camera.depth_range.x);
+    } else if (camera.depth_kind == depth_device) {
+        float farther_end = camera.depth_range.x < camera.depth_range.y ? R(0.0) : R(1.0);
+        if (raw == farther_end)
+            return far_away;
+        float inverse = mix(camera.depth_range.x, camera.depth_range.y, clamp(raw, R(0.0), R(1.0)));
+        along = inverse > R(1e-30) ? R(1.0) / inverse : far_away;
+    } else if (raw <= R(0.0)) {
+        return far_away;
+    }
+    if (along >= camera.far_distance)
+        return far_away;
+    return camera.depth_kind == depth_ray ? along : along * stretch;
+}
+
+PURE Ray pixel_ray(Camera camera, vec2 pixel, float raw)
+{
+    vec3 through = ray_through(camera, pixel);
+    float stretch = length(through);
+    float d = ray_distance(camera, raw, stretch);
+    bool is_far = d >= far_away;
+    if (is_far && camera.sky == sky_clamp)
+        d = camera.sky_distance;
+    return Ray(through / stretch, d, is_far && camera.sky == sky_keep);
+}

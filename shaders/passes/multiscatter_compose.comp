@@ -1,0 +1,61 @@
+// PYRAMID and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
+#ifndef PYRAMID
+#define PYRAMID 1
+#define OUTPUTS 15
+#endif
+#include "scene.glsl"
+#include "ray.glsl"
+#include "density.glsl"
+#include "radiance.glsl"
+#include "spread.glsl"
+#include "pyramid.glsl"
+#include "fetch.glsl"
+#include "multiscatter.glsl"
+
+uniform Medium brume_medium;
+uniform Camera brume_camera;
+uniform Filter multiscatter;
+uniform float brume_output_limit;
+uniform int outputs;  // those of this frame
+uniform sampler2D color;
+uniform sampler2D depth;
+uniform sampler2D radiance;
+uniform sampler2D radiance_stack;
+uniform sampler2D spread_stack;
+uniform sampler2D separated;
+uniform sampler2D separated_stack;
+writeonly uniform image2D result;
+#if OUTPUTS != 0
+writeonly uniform image2D transmittance_out;
+writeonly uniform image2D optical_depth_out;
+writeonly uniform image2D scattered_out;
+writeonly uniform image2D blur_radius_out;
+#endif
+
+void main()
+{
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (p.x >= brume_grid.x || p.y >= brume_grid.y)
+        return;
+    vec2 centre = vec2(p) + 0.5;
+    vec4 source = texelFetch(color, p, 0);
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r);
+    vec3 added = pixel.emitted;
+#if PYRAMID
+    added += gathered(radiance, radiance_stack, spread_stack, separated, separated_stack,
+                      Pyramid(brume_grid, multiscatter.top), multiscatter, centre, pixel.spread);
+#else
+    added += pixel.share * finite_or_zero(source.rgb);
+#endif
+    imageStore(result, p, vec4(compose_radiance(source.rgb, pixel.transmittance, added, brume_output_limit), source.a));
+#if OUTPUTS != 0
+    if ((outputs & 1) != 0)
+        imageStore(transmittance_out, p, vec4(pixel.transmittance, 1.0));
+    if ((outputs & 2) != 0)
+        imageStore(optical_depth_out, p, vec4(optical_depth(brume_medium, pixel.density), 1.0));
+    if ((outputs & 4) != 0)
+        imageStore(scattered_out, p, vec4(added, 1.0));
+    if ((outputs & 8) != 0)
+        imageStore(blur_radius_out, p, vec4(pixel.spread, 0.0, 0.0, 1.0));
+#endif
+}

@@ -1,0 +1,28 @@
+#include "scene.glsl"
+#include "ray.glsl"
+#include "density.glsl"
+#include "radiance.glsl"
+#include "spread.glsl"
+#include "pyramid.glsl"
+#include "fetch.glsl"
+#include "multiscatter.glsl"
+
+uniform Medium brume_medium;
+uniform Camera brume_camera;
+uniform Filter multiscatter;
+uniform sampler2D color;
+uniform sampler2D depth;
+writeonly uniform image2D radiance;
+writeonly uniform image2D separated;
+
+void main()
+{
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (p.x >= brume_grid.x || p.y >= brume_grid.y)
+        return;
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, vec2(p) + 0.5, texelFetch(depth, p, 0).r);
+    Sources s = scattered_sources(brume_medium, multiscatter, pixel, texelFetch(color, p, 0).rgb);
+    imageStore(radiance, p, s.spread);
+    if (multiscatter.separation != 0)
+        imageStore(separated, p, s.separated);
+}
