@@ -1,0 +1,28 @@
+#pragma once
+#include <memory>
+
+#include "gl/image.h"
+#include "gl/pass.h"
+#include "gl/program.h"
+
+namespace brume::gl {
+
+// Copies pixels between images of different formats: halves round to nearest even whatever the driver does, one channel
+// is spread over RGB with alpha 1, and of several the first becomes the one.
+class Converter {
+public:
+    explicit Converter(std::shared_ptr<Disposal> disposal);
+
+    void convert(const GlImage &from, const GlImage &to, const Samplers &samplers, StateGuard &guard);
+    // The same with the rounding left to the driver's image stores.
+    void store(const GlImage &from, const GlImage &to, const Samplers &samplers, StateGuard &guard);
+
+private:
+    void run(const GlImage &from, const GlImage &to, bool round_to_half, const Samplers &samplers, StateGuard &guard);
+
+    GlProgram program_;
+};
+
+bool is_half(GLenum format);
+
+}  // namespace brume::gl

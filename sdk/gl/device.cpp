@@ -1,0 +1,131 @@
+#include "gl/device.h"
+
+#include <epoxy/gl.h>
+
+#include "core/error.h"
+#include "gl/egl_context.h"
+#include "gl/error.h"
+
+namespace brume::gl {
+namespace {
+
+constexpr int needed_version = 45;
+
+std::string text(GLenum name)
+{
+    const GLubyte *value = glGetString(name);
+    return value ? reinterpret_cast<const char *>(value) : "";
+}
+
+// Empty if the current context will do, else why not.
+std::string why_unusable()
+{
+    if (!current_context())
+        return "no OpenGL context is current on the calling thread";
+    if (!epoxy_is_desktop_gl() || epoxy_gl_version() < needed_version)
+        return "the current context is \"" + text(GL_VERSION) + "\"; expected OpenGL 4.5 or later";
+    return "";
+}
+
+}  // namespace
+
+Device::Device(const GlOptions &options, const Log &log) : options_(options), log_(log)
+{
+    if (!options_.borrowed) {
+        thread_ = std::make_unique<GlThread>();
+        thread_->invoke([&] { read_properties(); });
+        return;
+    }
+    if (const std::string reason = why_unusable(); !reason.empty())
+        throw Error(BRUME_ERROR_GL, "borrowed OpenGL context: " + reason);
+    borrowed_ = current_context();
+    read_properties();
+}
+
+void Device::invoke(const std::function<void()> &work)
+{
+    if (thread_)
+        return thread_->invoke([&] { surround(work); });
+    const CurrentContext current = current_context();
+    if (!current)
+        throw Error(BRUME_ERROR_GL, "no OpenGL context is current on the calling thread; expected the one that the brume "
+                                    "context was created in");
+    if (current != *borrowed_)
+        throw Error(BRUME_ERROR_GL, "another OpenGL context is current than the one that the brume context was created in");
+    surround(work);
+}
+
+StateGuard &Device::guard()
+{
+    if (!guard_)
+        throw Error(BRUME_ERROR_INTERNAL, "a GL backend was used outside invoke()");
+    return *guard_;
+}
+
+void Device::read_properties()
+{
+    renderer_ = text(GL_RENDERER);
+    GLint profile = 0;
+    glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+    compatibility_ = profile & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT;
+}
+
+void Device::surround(const std::function<void()> &work)
+{
+    if (guard_)
+        return work();
+    report_host_error();
+    guard_.emplace(borrowed() ? options_.state : BRUME_GL_STATE_OWNED, compatibility_);
+    try {
+        // The host may have read the images to be written, or written those to be read, through shaders.
+        if (borrowed())
+            glMemoryBarrier(GL_ALL_BARRIER_BITS);
+        work();
+    } catch (...) {
+        guard_.reset();
+        take_error();
+        throw;
+    }
+    guard_.reset();
+    throw_on_error("running effects");
+}
+
+// An error flag that the host left cannot be put back once read, and left in place it would look like ours.
+void Device::report_host_error() const
+{
+    const GLenum error = take_error();
+    if (error != GL_NO_ERROR)
+        log_(BRUME_LOG_WARNING, "an OpenGL error was pending before this call, and reading it cleared it: " + error_name(error));
+}
+
+bool is_software(const std::string &renderer)
+{
+    for (const char *name : {"llvmpipe", "softpipe", "swrast", "SWR", "SwiftShader", "Software"})
+        if (renderer.find(name) != std::string::npos)
+            return true;
+    return false;
+}
+
+}  // namespace brume::gl
+
+namespace brume {
+
+bool gl_is_hardware(const GlOptions &options)
+{
+    using namespace gl;
+    if (options.borrowed)
+        return why_unusable().empty() && !is_software(text(GL_RENDERER));
+    static const bool owned = [] {
+        try {
+            GlThread thread;
+            std::string renderer;
+            thread.invoke([&] { renderer = text(GL_RENDERER); });
+            return !is_software(renderer);
+        } catch (const std::exception &) {
+            return false;
+        }
+    }();
+    return owned;
+}
+
+}  // namespace brume

@@ -1,0 +1,256 @@
+#include <array>
+#include <map>
+#include <tuple>
+
+#include <epoxy/gl.h>
+
+#include "core/backend.h"
+#include "core/error.h"
+#include "core/half.h"
+#include "gl/convert.h"
+#include "gl/device.h"
+#include "gl/host_texture.h"
+#include "gl/image.h"
+#include "gl/pass.h"
+#include "gl/program.h"
+#include "gl/timer.h"
+#include "gl/transfer.h"
+
+namespace brume {
+namespace gl {
+namespace {
+
+uint32_t pixel_of(GLenum format)
+{
+    return is_half(format) ? BRUME_PIXEL_F16 : BRUME_PIXEL_F32;
+}
+
+const char *name_of(int32_t channels)
+{
+    return channels == 1 ? "depth" : "color";
+}
+
+class GlBackend : public Backend {
+public:
+    GlBackend(const GlOptions &options, const Log &log);
+    ~GlBackend() override;
+
+    uint32_t kind() const override { return BRUME_BACKEND_GL; }
+    std::string device() const override { return device_.renderer(); }
+    uint32_t threads() const override { return 1; }
+    uint64_t host_bytes() const override { return 0; }
+    uint64_t device_bytes() const override { return pool_->bytes(); }
+    void invoke(const std::function<void()> &work) override { device_.invoke(work); }
+    int32_t largest_size() const override { return pool_->largest_size(); }
+
+    std::shared_ptr<Image> create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel) override;
+    std::shared_ptr<Program> compile(const std::string &name, const std::string &source,
+                                     const std::string &defines) override;
+    std::unique_ptr<FrameTimer> create_timer() override { return std::make_unique<GlTimer>(disposal_); }
+
+    void check(const brume_image &image, const char *what, bool writable) override;
+    std::shared_ptr<Image> import(const brume_image &image, int32_t channels) override;
+    std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) override;
+    void finish_output(const brume_image &image, Image &written) override;
+    void copy(const brume_image &from, const brume_image &to) override;
+    void flush() override;
+
+    void run(const brume_plugin_pass &pass, const brume_plugin_scene &scene) override;
+    brume_status rows(int32_t count, int32_t grain, brume_rows_function function, void *user) override;
+    brume_plugin_pixels pixels(Image &image) override;
+
+private:
+    bool stores_round_to_nearest();
+    void bring(const GlImage &from, const GlImage &to);
+
+    const Log log_;
+    Device device_;
+    std::shared_ptr<Disposal> disposal_;
+    std::shared_ptr<ImagePool> pool_;
+    std::map<std::tuple<std::string, std::string, std::string>, std::shared_ptr<GlProgram>> programs_;
+    std::optional<Converter> converter_;
+    Samplers samplers_;
+    bool direct_half_stores_ = false;
+};
+
+GlBackend::GlBackend(const GlOptions &options, const Log &log)
+    : log_(log), device_(options, log), disposal_(std::make_shared<Disposal>(device_.borrowed_context()))
+{
+    device_.invoke([&] {
+        pool_ = std::make_shared<ImagePool>(disposal_);
+        samplers_.create();
+        converter_.emplace(disposal_);
+        direct_half_stores_ = stores_round_to_nearest();
+    });
+    log_(BRUME_LOG_INFO, "OpenGL on " + device_.renderer() +
+                             (direct_half_stores_ ? "" : "; its half stores do not round to nearest: a pass rounds for it"));
+}
+
+GlBackend::~GlBackend()
+{
+    try {
+        device_.invoke([&] {
+            programs_.clear();
+            converter_.reset();
+            samplers_.destroy();
+            pool_->close();
+            disposal_->close();
+        });
+    } catch (const std::exception &error) {
+        log_(BRUME_LOG_WARNING, std::string("OpenGL objects of a brume context are left behind: ") + error.what());
+    }
+}
+
+std::shared_ptr<Image> GlBackend::create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel)
+{
+    device_.guard();
+    return pool_->take(width, height, channels, pixel);
+}
+
+std::shared_ptr<Program> GlBackend::compile(const std::string &name, const std::string &source, const std::string &defines)
+{
+    device_.guard();
+    std::shared_ptr<GlProgram> &program = programs_[{name, source, defines}];
+    if (!program)
+        program = std::make_shared<GlProgram>(name, source, defines, disposal_);
+    return program;
+}
+
+void GlBackend::check(const brume_image &image, const char *what, bool writable)
+{
+    const std::string label = what;
+    if (image.width > largest_size() || image.height > largest_size())
+        throw Error(BRUME_ERROR_UNSUPPORTED, label + ": " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                                                 "; this device's textures have at most " + std::to_string(largest_size()) +
+                                                 " pixels a side");
+    if (image.kind == BRUME_IMAGE_HOST) {
+        if (!image.data)
+            throw Error(BRUME_ERROR_ARGUMENT, label + ".data: NULL");
+        return;
+    }
+    if (!device_.borrowed())
+        throw Error(BRUME_ERROR_UNSUPPORTED, label + ": a GL texture was given to a context of BRUME_GL_OWNED; expected host "
+                                                     "memory, or a context of BRUME_GL_BORROWED");
+    device_.guard();
+    const HostTexture texture = inspect(image, label);
+    if (writable)
+        require_writable(texture, int32_t(image.channels), label);
+}
+
+std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t channels)
+{
+    StateGuard &guard = device_.guard();
+    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
+        const HostTexture texture = inspect(image, name_of(channels));
+        require_readable(texture, channels, name_of(channels));
+        return wrap(texture);
+    }
+    auto imported = pool_->take(image.width, image.height, channels, image.pixel);
+    upload(image, *imported, guard);
+    return imported;
+}
+
+// Passes leave the conversion of floats to halves to the driver's stores. Where those do not round to nearest even, as the
+// CPU backend does, passes write floats and finish_output() rounds them.
+std::shared_ptr<Image> GlBackend::begin_output(const brume_image &image, int32_t channels, bool direct)
+{
+    device_.guard();
+    uint32_t pixel = image.pixel;
+    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
+        const HostTexture texture = inspect(image, "output");
+        require_writable(texture, channels, "output");
+        auto wrapped = wrap(texture);
+        pixel = pixel_of(texture.format);
+        if (direct && wrapped->channels == channels && (pixel == BRUME_PIXEL_F32 || direct_half_stores_))
+            return wrapped;
+    }
+    return pool_->take(image.width, image.height, channels, direct_half_stores_ ? pixel : BRUME_PIXEL_F32);
+}
+
+void GlBackend::finish_output(const brume_image &image, Image &written)
+{
+    StateGuard &guard = device_.guard();
+    const auto &from = static_cast<const GlImage &>(written);
+    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
+        if (from.texture != image.gl_texture)
+            bring(from, *wrap(inspect(image, "output")));
+    } else if (from.format == image_format(from.channels, image.pixel)) {
+        download(from, image, guard);
+    } else {
+        auto converted = pool_->take(from.width, from.height, from.channels, image.pixel);
+        converter_->convert(from, *converted, samplers_, guard);
+        download(*converted, image, guard);
+    }
+}
+
+void GlBackend::copy(const brume_image &from, const brume_image &to)
+{
+    const auto source = import(from, 4);
+    finish_output(to, *source);
+}
+
+void GlBackend::bring(const GlImage &from, const GlImage &to)
+{
+    if (from.format == to.format)
+        glCopyImageSubData(from.texture, GL_TEXTURE_2D, 0, 0, 0, 0, to.texture, GL_TEXTURE_2D, 0, 0, 0, 0, from.width,
+                           from.height, 1);
+    else
+        converter_->convert(from, to, samplers_, device_.guard());
+}
+
+void GlBackend::flush()
+{
+    device_.guard();
+    if (device_.borrowed())
+        glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    pool_->age();
+    disposal_->collect();
+}
+
+void GlBackend::run(const brume_plugin_pass &pass, const brume_plugin_scene &scene)
+{
+    run_pass(pass, scene, samplers_, device_.guard());
+}
+
+brume_status GlBackend::rows(int32_t, int32_t, brume_rows_function, void *)
+{
+    throw Error(BRUME_ERROR_INTERNAL, "rows: not available on OpenGL, where effects run passes");
+}
+
+brume_plugin_pixels GlBackend::pixels(Image &)
+{
+    throw Error(BRUME_ERROR_INTERNAL, "pixels: not available on OpenGL, where images are textures");
+}
+
+// Asks the driver by storing floats between halves: ties both ways, the largest, and subnormals.
+bool GlBackend::stores_round_to_nearest()
+{
+    const std::array<float, 8> values = {1.0f + 0x1p-11f, 1.0f + 0x3p-11f, -1.0f - 0x1.8p-11f, 65519.0f,
+                                         65504.0f,        0x1p-25f,        0x3p-25f,           0x1.8p-24f + 0x1p-40f};
+    std::array<uint16_t, 8> stored{};
+    brume_image image = BRUME_IMAGE_INIT;
+    image.width = 2;
+    image.height = 1;
+    image.data = const_cast<float *>(values.data());
+    const auto floats = pool_->take(2, 1, 4, BRUME_PIXEL_F32);
+    const auto halves = pool_->take(2, 1, 4, BRUME_PIXEL_F16);
+    upload(image, *floats, device_.guard());
+    converter_->store(*floats, *halves, samplers_, device_.guard());
+    image.pixel = BRUME_PIXEL_F16;
+    image.data = stored.data();
+    download(*halves, image, device_.guard());
+    for (size_t i = 0; i < values.size(); ++i)
+        if (stored[i] != float_to_half(values[i]))
+            return false;
+    return true;
+}
+
+}  // namespace
+}  // namespace gl
+
+std::unique_ptr<Backend> make_gl_backend(const GlOptions &options, const Log &log)
+{
+    return std::make_unique<gl::GlBackend>(options, log);
+}
+
+}  // namespace brume
