@@ -64,6 +64,9 @@ public:
     // Checks that an image of the caller's is usable here as input (writable: as output); throws Error.
     virtual void check(const brume_image &image, const char *what, bool writable) = 0;
 
+    // BRUME_PIXEL_... that an image to be written holds: a texture knows its own.
+    virtual uint32_t pixel(const brume_image &image) { return image.pixel; }
+
     // The caller's image for reading: RGBA (grey is spread over RGB, alpha is 1 where there is none) or, for channels 1,
     // its first channel.
     virtual std::shared_ptr<Image> import(const brume_image &image, int32_t channels) = 0;

@@ -49,6 +49,7 @@ public:
     std::unique_ptr<FrameTimer> create_timer() override { return std::make_unique<GlTimer>(disposal_); }
 
     void check(const brume_image &image, const char *what, bool writable) override;
+    uint32_t pixel(const brume_image &image) override;
     std::shared_ptr<Image> import(const brume_image &image, int32_t channels) override;
     std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) override;
     void finish_output(const brume_image &image, Image &written) override;
@@ -135,6 +136,12 @@ void GlBackend::check(const brume_image &image, const char *what, bool writable)
     const HostTexture texture = inspect(image, label);
     if (writable)
         require_writable(texture, int32_t(image.channels), label);
+}
+
+uint32_t GlBackend::pixel(const brume_image &image)
+{
+    device_.guard();
+    return image.kind == BRUME_IMAGE_GL_TEXTURE ? pixel_of(inspect(image, "output").format) : image.pixel;
 }
 
 std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t channels)
