@@ -79,7 +79,8 @@ void JsonNode::allow_only(const std::vector<std::string> &keys) const
     for (const JsonMember &member : object()) {
         if (std::find(keys.begin(), keys.end(), member.key) != keys.end())
             continue;
-        fail_at(member.position, fmt::format("unknown key {}{}", in_quotes(member.key), did_you_mean(member.key, keys)));
+        fail_at(member.position,
+                fmt::format("unknown key {}{}", in_quotes(member.key), did_you_mean(member.key, keys)));
     }
 }
 
@@ -105,8 +106,8 @@ void JsonNode::refuse_both(std::string_view one, std::string_view other) const
         if (member.key != one && member.key != other)
             continue;
         if (first)
-            fail_key(member, fmt::format("{} beside {}; expected one of them: they say the same thing", in_quotes(member.key),
-                                         in_quotes(first->key)));
+            fail_key(member, fmt::format("{} beside {}; expected one of them: they say the same thing",
+                                         in_quotes(member.key), in_quotes(first->key)));
         first = &member;
     }
 }

@@ -75,6 +75,20 @@ private:
     TextPosition position_;
 };
 
+// nlohmann's message without its position, which counts bytes, and without the text read, which may be long.
+std::string syntax_error(const std::string &message)
+{
+    constexpr size_t longest_expectation = 80;
+    const size_t begin = message.find("syntax error"), read = message.find("; last read: '");
+    const size_t expected = message.rfind("'; expected ");
+    if (begin == std::string::npos)
+        return "syntax error";
+    std::string cause = message.substr(begin, read == std::string::npos ? read : read - begin);
+    if (read != std::string::npos && expected != std::string::npos && message.size() - expected < longest_expectation)
+        cause += message.substr(expected + 1);
+    return valid_utf8(cause) ? cause : "syntax error";
+}
+
 class TreeBuilder : public nlohmann::json_sax<Json> {
 public:
     TreeBuilder(std::string_view text, const std::string &name) : cursor_(text), name_(name) {}
@@ -104,13 +118,10 @@ public:
 
     bool parse_error(size_t offset, const std::string &, const Json::exception &exception) override
     {
-        // nlohmann's own position counts bytes from the start of what it was given; ours stands in front instead.
-        const std::string_view what = exception.what();
-        const size_t cause = what.find(exception.id == 101 ? "syntax error" : "] ");
-        std::string message(what.substr(cause == std::string_view::npos ? 0 : exception.id == 101 ? cause : cause + 2));
-        if (!valid_utf8(message))
-            message = "invalid UTF-8";
-        fail(cursor_.at(offset == 0 ? 0 : offset - 1), message);
+        constexpr int number_overflow = 406;
+        const std::string cause =
+            exception.id == number_overflow ? "a number beyond the range of a double" : syntax_error(exception.what());
+        fail(cursor_.at(offset == 0 ? 0 : offset - 1), cause);
     }
 
 private:
@@ -124,15 +135,13 @@ private:
         throw Error(BRUME_ERROR_SCENE, fmt::format("{}:{}:{}: {}", name_, position.line, position.column, message));
     }
 
-    template <class T>
-    bool add(T &&content)
+    template <class T> bool add(T &&content)
     {
         *slot() = {cursor_.next_token(), std::forward<T>(content)};
         return true;
     }
 
-    template <class T>
-    bool open(T &&empty)
+    template <class T> bool open(T &&empty)
     {
         JsonValue *value = slot();
         *value = {cursor_.next_token(), std::forward<T>(empty)};
@@ -149,7 +158,7 @@ private:
         return true;
     }
 
-    // Where the next value goes. A parent grows only when its earlier children are complete, so the pointers in open_ hold.
+    // Where the next value goes. A parent grows only when its earlier children are complete: open_'s pointers hold.
     JsonValue *slot()
     {
         if (open_.empty())
@@ -183,12 +192,13 @@ std::string JsonValue::describe() const
 JsonValue parse_json(const std::string &text, const std::string &name)
 {
     if (text.size() > largest_text)
-        throw Error(BRUME_ERROR_SCENE, fmt::format("{}: {} bytes; expected at most {}", name, text.size(), largest_text));
+        throw Error(BRUME_ERROR_SCENE,
+                    fmt::format("{}: {} bytes; expected at most {}", name, text.size(), largest_text));
     // The parser takes a NUL for the end and would not see what follows.
     if (const size_t nul = text.find('\0'); nul != std::string::npos) {
         const TextPosition position = Cursor(text).at(nul);
-        throw Error(BRUME_ERROR_SCENE, fmt::format("{}:{}:{}: NUL byte; expected JSON text", name, position.line,
-                                                   position.column));
+        throw Error(BRUME_ERROR_SCENE,
+                    fmt::format("{}:{}:{}: NUL byte; expected JSON text", name, position.line, position.column));
     }
     TreeBuilder builder(text, name);
     Json::sax_parse(text, &builder);

@@ -22,11 +22,7 @@ struct JsonValue {
     TextPosition position;
     std::variant<std::nullptr_t, bool, double, std::string, Array, Object> content;
 
-    template <class T>
-    const T *as() const
-    {
-        return std::get_if<T>(&content);
-    }
+    template <class T> const T *as() const { return std::get_if<T>(&content); }
     // As a message shows it: numbers and short strings themselves, else what it is.
     std::string describe() const;
 };

@@ -32,8 +32,8 @@ size_t edit_distance(const std::string &a, const std::string &b)
 
 [[noreturn]] void reject(const Effect &effect, const Parameter &parameter, const std::string &value)
 {
-    throw Error(BRUME_ERROR_ARGUMENT,
-                fmt::format("{}.{}: {}; expected {}", effect.name, parameter.name, value, parameter_expectation(parameter)));
+    throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.{}: {}; expected {}", effect.name, parameter.name, value,
+                                                  parameter_expectation(parameter)));
 }
 
 }  // namespace
@@ -86,8 +86,8 @@ size_t find_parameter(const Effect &effect, const std::string &name)
             return names.size();
         names.push_back(parameter.name);
     }
-    throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("effect {} has no parameter {}{}", in_quotes(effect.name), in_quotes(name),
-                                                   did_you_mean(name, names)));
+    throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("effect {} has no parameter {}{}", in_quotes(effect.name),
+                                                   in_quotes(name), did_you_mean(name, names)));
 }
 
 double parameter_from_text(const Effect &effect, const Parameter &parameter, const std::string &text)

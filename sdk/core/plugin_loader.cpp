@@ -20,6 +20,8 @@ constexpr uint32_t largest_struct = 1024;
 constexpr uint32_t most_parameters = 256;
 constexpr size_t longest_name = 63;
 constexpr size_t longest_text = 4095;
+constexpr uint32_t known_outputs =
+    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS;
 constexpr double largest_integer = 9007199254740992.0;  // 2^53: beyond it a double skips integers
 
 struct Refusal : std::runtime_error {
@@ -33,8 +35,7 @@ template <class... Arguments>
 }
 
 // The plugin's struct as this library knows it: what its struct_size does not cover keeps the defaults.
-template <class T>
-T copy_sized(const void *source, T defaults, const std::string &what)
+template <class T> T copy_sized(const void *source, T defaults, const std::string &what)
 {
     uint32_t size = 0;
     std::memcpy(&size, source, sizeof size);
@@ -133,7 +134,8 @@ Parameter copy_parameter(const brume_parameter_info &info, const std::string &in
         refuse("{}.type: {}; expected a BRUME_PARAMETER_... of this library", what, info.type);
     }
     if (info.type != BRUME_PARAMETER_CHOICE && !parameter.choices_text.empty())
-        refuse("{}.choices: {}; expected \"\" for a parameter that is no choice", what, in_quotes(parameter.choices_text));
+        refuse("{}.choices: {}; expected \"\" for a parameter that is no choice", what,
+               in_quotes(parameter.choices_text));
     check_numbers(parameter, what);
     return parameter;
 }
@@ -175,6 +177,10 @@ void copy_table(const brume_effect *source, Effect &effect)
         refuse("effect.thread_safety: {}; expected a BRUME_THREADS_... of this library", table.thread_safety);
     if (table.wanted > BRUME_WANTED_WITH_MEDIUM)
         refuse("effect.wanted: {}; expected a BRUME_WANTED_... of this library", table.wanted);
+    if (table.outputs & ~known_outputs)
+        refuse("effect.outputs: {:#x}; expected BRUME_OUTPUT_... flags of this library", table.outputs);
+    if (table.reserved != 0)
+        refuse("effect.reserved: {}; expected 0", table.reserved);
     if (!table.plan || !table.execute || !table.destroy)
         refuse("effect.{}: NULL; expected a function", !table.plan ? "plan" : !table.execute ? "execute" : "destroy");
     effect.order = table.order;

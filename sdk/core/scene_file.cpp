@@ -61,13 +61,15 @@ Number3 read_vector(const JsonNode &node, const Range &range)
     return {read_number(node.item(0), range), read_number(node.item(1), range), read_number(node.item(2), range)};
 }
 
+bool always_zero(const Number &number)
+{
+    return std::all_of(number.keys.begin(), number.keys.end(), [](const auto &key) { return key.second == 0.0; });
+}
+
 Number3 read_direction(const JsonNode &node)
 {
     const Number3 direction = read_vector(node, ranges::any);
-    const bool zero = std::all_of(direction.begin(), direction.end(), [](const Number &component) {
-        return std::all_of(component.keys.begin(), component.keys.end(), [](const auto &key) { return key.second == 0.0; });
-    });
-    if (zero)
+    if (std::all_of(direction.begin(), direction.end(), always_zero))
         node.fail("(0, 0, 0); expected a vector that is not zero");
     return direction;
 }
@@ -104,8 +106,8 @@ std::string rigid_defect(const std::array<double, 16> &m)
                               : fmt::format("columns {} and {} have the product {:.6g}", a, b, product);
         }
     }
-    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-                               m[2] * (m[4] * m[9] - m[5] * m[8]);
+    const double determinant =
+        m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
     return determinant > 0.0 ? "" : "it mirrors: its determinant is negative";
 }
 
@@ -187,7 +189,8 @@ std::vector<DensityTerm> read_density(const JsonNode &node)
     for (size_t i = 0; i < count; ++i) {
         terms.push_back(read_density_term(node.item(i)));
         if (terms.back().type == BRUME_DENSITY_EXPONENTIAL && ++exponential > BRUME_MAX_DENSITY_TERMS)
-            node.item(i).fail(fmt::format("exponential term {}; expected at most {}", exponential, BRUME_MAX_DENSITY_TERMS));
+            node.item(i).fail(
+                fmt::format("exponential term {}; expected at most {}", exponential, BRUME_MAX_DENSITY_TERMS));
     }
     return terms;
 }
@@ -264,7 +267,7 @@ double read_parameter(const JsonNode &node, const Effect &effect, const Paramete
     if (boolean ? !truth : choice ? !word : !number)
         node.expected(parameter_expectation(parameter));
     try {
-        return boolean ? double(*truth)
+        return boolean  ? double(*truth)
                : choice ? parameter_from_text(effect, parameter, *word)
                         : parameter_from_number(effect, parameter, *number);
     } catch (const Error &) {

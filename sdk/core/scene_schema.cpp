@@ -87,13 +87,13 @@ Json density()
 {
     const Json value = described(reference("not_negative"), "Ratio to unit density; 1 by default");
     const Json constant_term = object_of({{"type", {{"const", "constant"}}}, {"value", value}}, {"type"});
-    const Json exponential_term = object_of(
-        {{"type", {{"const", "exponential"}}},
-         {"value", value},
-         {"falloff", described(reference("not_negative"), "[1/m]; 0 by default")},
-         {"direction", described(reference("direction"), "The density falls along it; [0, 1, 0] by default")},
-         {"origin", described(reference("vector"), "Where the density has its value; scene units")}},
-        {"type"});
+    const Json exponential_term =
+        object_of({{"type", {{"const", "exponential"}}},
+                   {"value", value},
+                   {"falloff", described(reference("not_negative"), "[1/m]; 0 by default")},
+                   {"direction", described(reference("direction"), "The density falls along it; [0, 1, 0] by default")},
+                   {"origin", described(reference("vector"), "Where the density has its value; scene units")}},
+                  {"type"});
     return {{"type", "array"},
             {"description", "Terms that add up; none: constant 1"},
             {"items", {{"oneOf", Json::array({constant_term, exponential_term})}}},
@@ -104,14 +104,14 @@ Json density()
 
 Json medium()
 {
-    Json schema = object_of(
-        {{"scattering", described(reference("rgb"), "At unit density [1/m]")},
-         {"absorption", described(reference("rgb"), "At unit density [1/m]")},
-         {"emission", described(reference("rgb"), "Radiance per metre at unit density")},
-         {"g", described(number(ranges::asymmetry), "Mean cosine of the phase function")},
-         {"visibility", described(number(ranges::positive), "[m]; instead of scattering: 3.912 / visibility - absorption")},
-         {"droplet_diameter", described(number(ranges::droplet_diameter), "[um]; instead of g")},
-         {"density", density()}});
+    Json schema = object_of({{"scattering", described(reference("rgb"), "At unit density [1/m]")},
+                             {"absorption", described(reference("rgb"), "At unit density [1/m]")},
+                             {"emission", described(reference("rgb"), "Radiance per metre at unit density")},
+                             {"g", described(number(ranges::asymmetry), "Mean cosine of the phase function")},
+                             {"visibility", described(number(ranges::positive),
+                                                      "[m]; instead of scattering: 3.912 / visibility - absorption")},
+                             {"droplet_diameter", described(number(ranges::droplet_diameter), "[um]; instead of g")},
+                             {"density", density()}});
     schema["allOf"] = Json::array({not_together("scattering", "visibility"), not_together("g", "droplet_diameter")});
     return schema;
 }
@@ -121,8 +121,9 @@ Json lights()
     const Json position = reference("vector"), direction = reference("direction"), intensity = reference("rgb"),
                radius = reference("not_negative"), angle = number(ranges::spot_angle);
     const Json kinds = Json::array(
-        {object_of({{"type", {{"const", "point"}}}, {"position", position}, {"intensity", intensity}, {"radius", radius}},
-                   {"type", "position", "intensity"}),
+        {object_of(
+             {{"type", {{"const", "point"}}}, {"position", position}, {"intensity", intensity}, {"radius", radius}},
+             {"type", "position", "intensity"}),
          object_of({{"type", {{"const", "spot"}}},
                     {"position", position},
                     {"direction", direction},
@@ -176,14 +177,14 @@ Json effects_schema(const EffectRegistry &registry)
 
 std::string scene_schema(const EffectRegistry &effects)
 {
-    Json schema = object_of(
-        {{"brume", {{"const", 1}, {"description", "Version of the file format"}}},
-         {"metres_per_unit", described(constant(ranges::positive), "Length of one scene unit; 1 by default")},
-         {"camera", camera()},
-         {"medium", medium()},
-         {"lights", lights()},
-         {"effects", effects_schema(effects)}},
-        {"brume"});
+    Json schema =
+        object_of({{"brume", {{"const", 1}, {"description", "Version of the file format"}}},
+                   {"metres_per_unit", described(constant(ranges::positive), "Length of one scene unit; 1 by default")},
+                   {"camera", camera()},
+                   {"medium", medium()},
+                   {"lights", lights()},
+                   {"effects", effects_schema(effects)}},
+                  {"brume"});
     schema["$defs"] = definitions();
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
     schema["title"] = "Brume scene";

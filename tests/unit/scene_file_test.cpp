@@ -1,0 +1,262 @@
+#include <numbers>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "core/effects.h"
+#include "core/error.h"
+#include "core/scene.h"
+
+namespace brume {
+namespace {
+
+const EffectRegistry &registry()
+{
+    static const EffectRegistry loaded = [] {
+        EffectRegistry effects;
+        effects.load({BRUME_TEST_PLUGIN_DIR}, {});
+        return effects;
+    }();
+    return loaded;
+}
+
+Scene parse(const std::string &text)
+{
+    return parse_scene(text, "fog.json", registry());
+}
+
+std::string failure(const std::string &text)
+{
+    try {
+        parse(text);
+    } catch (const Error &error) {
+        EXPECT_EQ(error.status(), BRUME_ERROR_SCENE) << error.what();
+        return error.what();
+    }
+    return "accepted";
+}
+
+// A scene whose second line is `line`.
+std::string with(const std::string &line)
+{
+    return "{ \"brume\": 1,\n" + line + " }";
+}
+
+TEST(SceneFile, ReadsEverything)
+{
+    const Scene scene = parse(R"({ "brume": 1,
+        "metres_per_unit": 0.01,
+        "camera": { "vertical_fov": 90, "pixel_aspect": 2, "center": [0.25, 0.75],
+                    "camera_to_world": [[0,0,1,10],[1,0,0,20],[0,1,0,{"keys":[[1,30],[2,40]]}],[0,0,0,1]] },
+        "medium": { "scattering": [0.01, 0.02, {"keys": [[0, 0.03], [10, 0.05]]}], "absorption": 0.5, "emission": [1,2,3],
+                    "g": -0.5,
+                    "density": [ {"type": "constant"}, {"type": "constant", "value": 0.5},
+                                 {"type": "exponential", "value": 2, "falloff": 0.25, "direction": [0,0,2],
+                                  "origin": [1,2,3]} ] },
+        "lights": [ {"type": "point", "position": [0,5,2], "intensity": [10,8,6], "radius": 0.1},
+                    {"type": "spot", "position": [0,5,2], "direction": [0,-1,0], "intensity": 3, "angle": 40},
+                    {"type": "directional", "direction": [0,-1,0], "intensity": 3} ],
+        "effects": { "well_behaved": {"strength": 2, "levels": 3, "masking": false, "kernel": "paper"} } })");
+    EXPECT_EQ(scene.metres_per_unit, 0.01);
+    EXPECT_NEAR(scene.camera.vertical_fov->at(0), std::numbers::pi / 2, 1e-15);
+    EXPECT_FALSE(scene.camera.horizontal_fov);
+    EXPECT_EQ(scene.camera.pixel_aspect.at(0), 2.0);
+    EXPECT_EQ(scene.camera.center[1].at(0), 0.75);
+    EXPECT_EQ((*scene.camera.camera_to_world)[7].at(0), 20.0);
+    EXPECT_EQ((*scene.camera.camera_to_world)[11].at(1.5), 35.0);
+    ASSERT_TRUE(scene.medium);
+    EXPECT_EQ(scene.medium->scattering[1].at(0), 0.02);
+    EXPECT_EQ(scene.medium->scattering[2].at(5), 0.04);
+    EXPECT_EQ(scene.medium->absorption[2].at(0), 0.5);
+    EXPECT_EQ(scene.medium->emission[2].at(0), 3.0);
+    EXPECT_EQ(scene.medium->g.at(0), -0.5);
+    ASSERT_EQ(scene.medium->density.size(), 3u);
+    EXPECT_EQ(scene.medium->density[0].value.at(0), 1.0);
+    EXPECT_EQ(scene.medium->density[2].type, BRUME_DENSITY_EXPONENTIAL);
+    EXPECT_EQ(scene.medium->density[2].falloff.at(0), 0.25);
+    EXPECT_EQ(scene.medium->density[2].direction[2].at(0), 2.0);
+    EXPECT_EQ(scene.medium->density[2].origin[2].at(0), 3.0);
+    EXPECT_EQ(scene.light_count, 3u);
+    ASSERT_EQ(scene.effects.size(), 1u);
+    EXPECT_EQ(scene.effects[0].name, "well_behaved");
+    EXPECT_EQ(scene.effects[0].parameters,
+              (std::map<std::string, double>{{"strength", 2.0}, {"levels", 3.0}, {"masking", 0.0}, {"kernel", 0.0}}));
+    EXPECT_TRUE(scene.animated());
+}
+
+TEST(SceneFile, DefaultsAreThoseOfAnEmptyScene)
+{
+    const Scene scene = parse("\xef\xbb\xbf{\"brume\": 1.0, \"effects\": {}}");
+    EXPECT_EQ(scene.metres_per_unit, 1.0);
+    EXPECT_FALSE(scene.medium);
+    EXPECT_FALSE(scene.camera.camera_to_world);
+    EXPECT_TRUE(scene.effects.empty());
+    EXPECT_EQ(scene.light_count, 0u);
+    EXPECT_FALSE(scene.animated());
+
+    const Scene droplets = parse(with(R"("medium": {"visibility": 200, "droplet_diameter": 12, "density": []})"));
+    EXPECT_EQ(droplets.medium->visibility->at(0), 200.0);
+    EXPECT_EQ(droplets.medium->droplet_diameter->at(0), 12.0);
+
+    const Scene wide = parse(with(R"("camera": {"horizontal_fov": 60}, "effects": {"well_behaved": {}})"));
+    EXPECT_NEAR(wide.camera.horizontal_fov->at(0), std::numbers::pi / 3, 1e-15);
+    EXPECT_TRUE(wide.effects.at(0).parameters.empty());
+}
+
+struct BadScene {
+    const char *line;     // the file's second line
+    const char *message;  // after "fog.json:"
+};
+
+TEST(SceneFile, SaysWhereAndWhatIsWrong)
+{
+    const BadScene cases[] = {
+        {R"("colour": 1)", R"(2:1: unknown key "colour"; expected one of brume, metres_per_unit, camera, medium, )"
+                           "lights, effects, quality"},
+        {R"("medium": {"scatering": 1})", R"(2:12: unknown key "scatering"; did you mean "scattering"?)"},
+        {R"("é": 1, "mediun": {})", R"(2:1: unknown key "é"; expected one of brume, metres_per_unit, camera, medium, )"
+                                    "lights, effects, quality"},
+        {R"("lights": [], "mediun": {})", R"(2:15: unknown key "mediun"; did you mean "medium"?)"},
+        {R"("medium": 1)", "2:11: medium: 1; expected an object"},
+        {R"("medium": null)", "2:11: medium: null; expected an object"},
+        {R"("medium": {"scattering": "thick"})",
+         R"(2:26: medium.scattering: "thick"; expected a number from 0 to 1e+30, [r, g, b], or )"
+         R"({"keys": [[frame, value], ...]})"},
+        {R"("medium": {"scattering": [1, 2]})",
+         "2:26: medium.scattering: an array of 2; expected an array of 3 numbers"},
+        {R"("medium": {"scattering": [1, -0.5, 2]})",
+         "2:30: medium.scattering[1]: -0.5; expected a number from 0 to 1e+30"},
+        {R"("medium": {"scattering": [1, 1e31, 2]})",
+         "2:30: medium.scattering[1]: 1e+31; expected a number from 0 to 1e+30"},
+        {R"("medium": {"g": 1.5})", "2:17: medium.g: 1.5; expected a number from -1 to 1"},
+        {R"("medium": {"g": true})",
+         R"(2:17: medium.g: true; expected a number from -1 to 1, or {"keys": [[frame, value], ...]})"},
+        {R"("medium": {"g": 0, "droplet_diameter": 8})",
+         R"(2:20: "droplet_diameter" beside "g"; expected one of them: they say the same thing)"},
+        {R"("medium": {"visibility": 9, "scattering": 8})",
+         R"(2:29: "scattering" beside "visibility"; expected one of them: they say the same thing)"},
+        {R"("medium": {"visibility": 0})", "2:26: medium.visibility: 0; expected a number from 1e-30 to 1e+30"},
+        {R"("medium": {"droplet_diameter": 4})", "2:32: medium.droplet_diameter: 4; expected a number from 5 to 50"},
+        {R"("medium": {"density": {}})", "2:23: medium.density: an object; expected an array of density terms"},
+        {R"("medium": {"density": [{}]})", R"(2:24: medium.density[0]: has no "type"; expected one)"},
+        {R"("medium": {"density": [{"type": "gaussian", "center": [0,0,0]}]})",
+         R"(2:33: medium.density[0].type: "gaussian"; expected "constant" or "exponential": this version has no )"
+         "Gaussian terms"},
+        {R"("medium": {"density": [{"type": "gaussians"}]})",
+         R"(2:33: medium.density[0].type: "gaussians"; expected "constant" or "exponential": this version has no )"
+         "Gaussian terms"},
+        {R"("medium": {"density": [{"type": "linear"}]})",
+         R"(2:33: medium.density[0].type: "linear"; expected "constant" or "exponential")"},
+        {R"("medium": {"density": [{"type": "constant", "falloff": 1}]})",
+         R"(2:45: unknown key "falloff"; expected one of type, value)"},
+        {R"("medium": {"density": [{"type": "exponential", "direction": [0, 0, -0]}]})",
+         "2:61: medium.density[0].direction: (0, 0, 0); expected a vector that is not zero"},
+        {R"("medium": {"g": {"keys": []}})",
+         "2:26: medium.g.keys: an array of 0; expected [frame, value] pairs, one at least"},
+        {R"("medium": {"g": {"keys": [[1, 0], [1, 0.5]]}})",
+         "2:36: medium.g.keys[1][0]: 1; expected a frame after 1: keys ascend"},
+        {R"("medium": {"g": {"keys": [[1, 0], [2, 5]]}})",
+         "2:39: medium.g.keys[1][1]: 5; expected a number from -1 to 1"},
+        {R"("medium": {"g": {"keys": [[1, 0, 0]]}})",
+         "2:27: medium.g.keys[0]: an array of 3; expected a [frame, value] pair"},
+        {R"("medium": {"g": {"key": [[1, 0]]}})", R"(2:18: unknown key "key"; did you mean "keys"?)"},
+        {R"("medium": {"g": {}})", R"(2:17: medium.g: has no "keys"; expected one)"},
+        {R"("metres_per_unit": 0)", "2:20: metres_per_unit: 0; expected a number from 1e-30 to 1e+30"},
+        {R"("metres_per_unit": {"keys": [[1, 1]]})",
+         "2:20: metres_per_unit: an object; expected a number from 1e-30 to 1e+30"},
+        {R"("camera": {"vertical_fov": 180})",
+         "2:28: camera.vertical_fov: 180; expected a number above 0 and below 180"},
+        {R"("camera": {"vertical_fov": 50, "horizontal_fov": 80})",
+         R"(2:32: "horizontal_fov" beside "vertical_fov"; expected one of them: they say the same thing)"},
+        {R"("camera": {"center": [0.5]})", "2:22: camera.center: an array of 1; expected an array of 2 numbers"},
+        {R"("camera": {"camera_to_world": [[1,0,0,0],[0,1,0],[0,0,1,0],[0,0,0,1]]})",
+         "2:42: camera.camera_to_world[1]: an array of 3; expected 4 rows of 4 numbers"},
+        {R"("camera": {"camera_to_world": [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]})",
+         "2:31: camera.camera_to_world: column 0 has length 2; expected a rigid motion: orthonormal columns, "
+         "determinant 1, last row 0 0 0 1"},
+        {R"("camera": {"camera_to_world": [[1,0.6,0,0],[0,0.8,0,0],[0,0,1,0],[0,0,0,1]]})",
+         "2:31: camera.camera_to_world: columns 0 and 1 have the product 0.6; expected a rigid motion: orthonormal "
+         "columns, determinant 1, last row 0 0 0 1"},
+        {R"("camera": {"camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]})",
+         "2:31: camera.camera_to_world: it mirrors: its determinant is negative; expected a rigid motion: orthonormal "
+         "columns, determinant 1, last row 0 0 0 1"},
+        {R"("camera": {"camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[5,0,0,1]]})",
+         "2:31: camera.camera_to_world: last row 5 0 0 1; expected a rigid motion: orthonormal columns, determinant 1, "
+         "last row 0 0 0 1"},
+        {R"("camera": {"camera_to_world": [[{"keys":[[1,1],[7,3]]},0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})",
+         "2:31: camera.camera_to_world: column 0 has length 3 at frame 7; expected a rigid motion: orthonormal "
+         "columns, "
+         "determinant 1, last row 0 0 0 1"},
+        {R"("lights": {})", "2:11: lights: an object; expected an array of lights"},
+        {R"("lights": [{"type": "lamp"}])",
+         R"(2:21: lights[0].type: "lamp"; expected "point", "spot" or "directional")"},
+        {R"("lights": [{"type": "point", "position": [0,0,0]}])",
+         R"(2:12: lights[0]: has no "intensity"; expected one)"},
+        {R"("lights": [{"type": "point", "direction": [0,0,1]}])",
+         R"(2:30: unknown key "direction"; expected one of type, intensity, position, radius)"},
+        {R"("effects": {"wel_behaved": {}})", R"(2:13: no effect "wel_behaved"; did you mean "well_behaved"?)"},
+        {R"("effects": {"well_behaved": false})", "2:29: effects.well_behaved: false; expected an object"},
+        {R"("effects": {"well_behaved": {"level": 1}})",
+         R"(2:30: effect "well_behaved" has no parameter "level"; did you mean "levels"?)"},
+        {R"("effects": {"well_behaved": {"levels": 2.5}})",
+         "2:40: effects.well_behaved.levels: 2.5; expected an integer from 1 to 12"},
+        {R"("effects": {"well_behaved": {"levels": "2"}})",
+         R"(2:40: effects.well_behaved.levels: "2"; expected an integer from 1 to 12)"},
+        {R"("effects": {"well_behaved": {"masking": 1}})",
+         "2:41: effects.well_behaved.masking: 1; expected true or false"},
+        {R"("effects": {"well_behaved": {"kernel": "papr"}})",
+         R"(2:40: effects.well_behaved.kernel: "papr"; expected one of paper, reference)"},
+        {R"("effects": {"well_behaved": {"kernel": 0}})",
+         "2:40: effects.well_behaved.kernel: 0; expected one of paper, reference"},
+        {R"("effects": {"well_behaved": {"strength": {"keys": [[1, 1]]}}})",
+         "2:42: effects.well_behaved.strength: an object; expected a number from 0 to 10; effects' parameters have no "
+         "keys"},
+        {R"("quality": {"max_error": 0.02})",
+         R"(2:12: quality: this version does not choose by quality; expected the parameters under "effects")"},
+        {R"("lights": [], "lights": [])", R"(2:15: duplicate key "lights")"},
+        {R"("medium": {"g": NaN})", "2:17: syntax error while parsing value - invalid literal"},
+        {R"("medium": {"g": 1e999})", "2:21: a number beyond the range of a double"},
+        {R"("medium": {} /* fog */)", "2:14: syntax error while parsing object - invalid literal; expected '}'"},
+        {"\"medium\": {\"g\": \"\xff\"}",
+         "2:18: syntax error while parsing value - invalid string: ill-formed UTF-8 byte"},
+    };
+    for (const BadScene &bad : cases)
+        EXPECT_EQ(failure(with(bad.line)), std::string("fog.json:") + bad.message) << bad.line;
+}
+
+TEST(SceneFile, RefusesWhatIsNoScene)
+{
+    EXPECT_EQ(failure(""),
+              "fog.json:1:1: syntax error while parsing value - unexpected end of input; expected '[', '{', "
+              "or a literal");
+    EXPECT_EQ(failure("{}"), "fog.json:1:1: has no \"brume\"; expected one");
+    EXPECT_EQ(failure("[]"), "fog.json:1:1: an array of 0; expected an object");
+    EXPECT_EQ(failure("{\"brume\": 2}"), "fog.json:1:11: brume: 2; expected 1, the version of this file format");
+    EXPECT_EQ(failure("{\"brume\": \"1\"}"),
+              "fog.json:1:11: brume: \"1\"; expected 1, the version of this file format");
+    EXPECT_EQ(failure("{\"brume\": 1} x"),
+              "fog.json:1:14: syntax error while parsing value - invalid literal; expected end of input");
+    EXPECT_EQ(failure(std::string("{\"brume\": 1}\0x", 14)), "fog.json:1:13: NUL byte; expected JSON text");
+    EXPECT_EQ(failure("{\"brume\": 1, \"" + std::string(500, 'x') + "\": 1}").size(), 194u);
+    EXPECT_EQ(failure("\"" + std::string(1 << 20, 'x')),
+              "fog.json:1:1048578: syntax error while parsing value - invalid string: missing closing quote");
+    EXPECT_EQ(failure(std::string(100000, '[')), "fog.json:1:65: nested deeper than 64 levels");
+    EXPECT_EQ(failure(std::string((8 << 20) + 1, ' ')), "fog.json: 8388609 bytes; expected at most 8388608");
+}
+
+TEST(SceneFile, BoundsExponentialTerms)
+{
+    const auto scene = [](int count) {
+        std::ostringstream out;
+        out << R"("medium": {"density": [{"type": "constant"})";
+        for (int i = 0; i < count; ++i)
+            out << R"(,{"type": "exponential"})";
+        out << "]}";
+        return with(out.str());
+    };
+    EXPECT_EQ(parse(scene(16)).medium->density.size(), 17u);
+    EXPECT_EQ(failure(scene(17)), "fog.json:2:429: medium.density[17]: exponential term 17; expected at most 16");
+}
+
+}  // namespace
+}  // namespace brume
