@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace brume::tool {
+
+struct ReadLimits {
+  /// Largest decoded size of one part, all channels together. A header may claim any size; this is what bounds memory.
+  std::uint64_t part_bytes = std::uint64_t(16) << 30;
+  int parts = 1024;
+  int channels = 4096;
+};
+
+/// Walks the headers byte by byte and refuses what would make a decoder allocate or loop without bound. The OpenEXR
+/// library allocates an attribute before it knows whether the file is long enough to hold it, hence this pass first.
+/// Throws FrameError naming file, part, attribute, value and what was expected.
+void precheck_headers(const std::filesystem::path& file, const ReadLimits& limits);
+
+}  // namespace brume::tool

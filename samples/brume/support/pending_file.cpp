@@ -1,0 +1,71 @@
+#include "support/pending_file.hpp"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "support/error.hpp"
+
+namespace brume::tool {
+namespace {
+
+// A signal handler may not allocate or lock, so the names it needs lie in fixed memory.
+struct Slot {
+  std::atomic<bool> taken{false}, live{false};
+  char path[PATH_MAX];
+};
+std::array<Slot, 256> slots;
+
+int take_slot(const std::string& path) {
+  if (path.size() >= PATH_MAX) return -1;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].taken.exchange(true)) continue;
+    std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
+    slots[i].live.store(true);
+    return int(i);
+  }
+  return -1;
+}
+
+void release_slot(int slot) {
+  if (slot < 0) return;
+  slots[std::size_t(slot)].live.store(false);
+  slots[std::size_t(slot)].taken.store(false);
+}
+
+}  // namespace
+
+PendingFile::PendingFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
+  static std::atomic<unsigned> serial{0};
+  const std::string name = fmt::format(".{}.{}-{}.partial", final_.filename().string(), ::getpid(), serial++);
+  temporary_ = final_.parent_path() / name;
+  const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw FrameError(fmt::format("{}: cannot be written: {}", final_.string(), std::strerror(errno)));
+  ::close(descriptor);
+  slot_ = take_slot(temporary_.string());
+}
+
+PendingFile::~PendingFile() {
+  if (!committed_) ::unlink(temporary_.c_str());
+  release_slot(slot_);
+}
+
+void PendingFile::commit() {
+  if (::rename(temporary_.c_str(), final_.c_str()) != 0)
+    throw FrameError(fmt::format("{}: cannot be put in place: {}", final_.string(), std::strerror(errno)));
+  committed_ = true;
+}
+
+void remove_pending_files() {
+  for (const Slot& slot : slots)
+    if (slot.live.load()) ::unlink(slot.path);
+}
+
+}  // namespace brume::tool
