@@ -133,7 +133,7 @@ void GlBackend::check(const brume_image &image, const char *what, bool writable)
         throw Error(BRUME_ERROR_UNSUPPORTED, label + ": a GL texture was given to a context of BRUME_GL_OWNED; expected host "
                                                      "memory, or a context of BRUME_GL_BORROWED");
     device_.guard();
-    const HostTexture texture = inspect(image, label);
+    const HostTexture texture = inspect(image, label, device_.guard());
     if (writable)
         require_writable(texture, int32_t(image.channels), label);
 }
@@ -141,14 +141,14 @@ void GlBackend::check(const brume_image &image, const char *what, bool writable)
 uint32_t GlBackend::pixel(const brume_image &image)
 {
     device_.guard();
-    return image.kind == BRUME_IMAGE_GL_TEXTURE ? pixel_of(inspect(image, "output").format) : image.pixel;
+    return image.kind == BRUME_IMAGE_GL_TEXTURE ? pixel_of(inspect(image, "output", device_.guard()).format) : image.pixel;
 }
 
 std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t channels)
 {
     StateGuard &guard = device_.guard();
     if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
-        const HostTexture texture = inspect(image, name_of(channels));
+        const HostTexture texture = inspect(image, name_of(channels), device_.guard());
         require_readable(texture, channels, name_of(channels));
         return wrap(texture);
     }
@@ -164,7 +164,7 @@ std::shared_ptr<Image> GlBackend::begin_output(const brume_image &image, int32_t
     device_.guard();
     uint32_t pixel = image.pixel;
     if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
-        const HostTexture texture = inspect(image, "output");
+        const HostTexture texture = inspect(image, "output", device_.guard());
         require_writable(texture, channels, "output");
         auto wrapped = wrap(texture);
         pixel = pixel_of(texture.format);
@@ -180,7 +180,7 @@ void GlBackend::finish_output(const brume_image &image, Image &written)
     const auto &from = static_cast<const GlImage &>(written);
     if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
         if (from.texture != image.gl_texture)
-            bring(from, *wrap(inspect(image, "output")));
+            bring(from, *wrap(inspect(image, "output", device_.guard())));
     } else if (from.format == image_format(from.channels, image.pixel)) {
         download(from, image, guard);
     } else {

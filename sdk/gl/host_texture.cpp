@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "gl/error.h"
 
 namespace brume::gl {
 namespace {
@@ -91,14 +92,18 @@ void require_plain_sampling(const HostTexture &texture, const std::string &what)
 
 }  // namespace
 
-HostTexture inspect(const brume_image &image, const std::string &what)
+HostTexture inspect(const brume_image &image, const std::string &what, StateGuard &guard)
 {
     const GLuint name = image.gl_texture;
     if (!glIsTexture(name))
         refuse(BRUME_ERROR_ARGUMENT, what, name, "does not exist in the current context");
-    const auto target = GLenum(parameter(name, GL_TEXTURE_TARGET));
-    if (target != GL_TEXTURE_2D)
-        refuse(BRUME_ERROR_UNSUPPORTED, what, name, "has the target " + hex(target) + "; expected GL_TEXTURE_2D");
+    // By binding: Mesa answers GL_TEXTURE_TARGET in core profiles only.
+    throw_on_error("before looking at textures");
+    guard.texture_unit(0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, name);
+    if (take_error() != GL_NO_ERROR)
+        refuse(BRUME_ERROR_UNSUPPORTED, what, name, "is no GL_TEXTURE_2D");
 
     HostTexture texture{};
     texture.name = name;

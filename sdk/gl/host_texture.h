@@ -5,6 +5,7 @@
 #include <brume/brume.h>
 
 #include "gl/image.h"
+#include "gl/state_guard.h"
 
 namespace brume::gl {
 
@@ -18,7 +19,7 @@ struct HostTexture {
 };
 
 // Throws Error unless it exists, is two-dimensional, complete, of the image's size, and sampled as it is stored.
-HostTexture inspect(const brume_image &image, const std::string &what);
+HostTexture inspect(const brume_image &image, const std::string &what, StateGuard &guard);
 
 // Throw Error where this kind of texture does not serve as an image of that many channels (1: depth or blur radius).
 void require_readable(const HostTexture &texture, int32_t channels, const std::string &what);

@@ -73,7 +73,7 @@ void GlProgram::link(const std::string &source, const std::string &defines)
     if (!compiled) {
         const std::string log = log_of(shader, glGetShaderiv, glGetShaderInfoLog);
         glDeleteShader(shader);
-        throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\" does not compile:\n" + with_file_names(log, assembled.files));
+        throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\" does not compile:\n" + with_file_names(log, assembled));
     }
     glAttachShader(id_, shader);
     glLinkProgram(id_);
@@ -82,7 +82,7 @@ void GlProgram::link(const std::string &source, const std::string &defines)
     glGetProgramiv(id_, GL_LINK_STATUS, &linked);
     if (!linked)
         throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\" does not link:\n" +
-                                        with_file_names(log_of(id_, glGetProgramiv, glGetProgramInfoLog), assembled.files));
+                                        with_file_names(log_of(id_, glGetProgramiv, glGetProgramInfoLog), assembled));
 }
 
 // Buffers would be read from and written to the host's binding points.

@@ -4,7 +4,7 @@
 
 namespace brume::test {
 
-HostContext::HostContext(bool compatibility, int minor)
+HostContext::HostContext(Profile profile)
 {
     EGLDeviceEXT device;
     EGLint count = 0;
@@ -12,13 +12,13 @@ HostContext::HostContext(bool compatibility, int minor)
         throw std::runtime_error("no EGL device");
     display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
     eglInitialize(display_, nullptr, nullptr);
-    eglBindAPI(EGL_OPENGL_API);
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, minor,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 compatibility ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT
-                                               : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_NONE};
-    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                              profile == Profile::compatibility ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT
+                                                                : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                              EGL_NONE};
+    const EGLint embedded[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+    eglBindAPI(profile == Profile::es ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
+    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, profile == Profile::es ? embedded : desktop);
     if (context_ == EGL_NO_CONTEXT)
         throw std::runtime_error("no OpenGL context for the test");
     make_current();

@@ -13,10 +13,12 @@
 
 namespace brume::test {
 
+enum class Profile { core, compatibility, es };
+
 // A host's context: made here and current on this thread while it lives.
 class HostContext {
 public:
-    explicit HostContext(bool compatibility = false, int minor = 5);
+    explicit HostContext(Profile profile = Profile::core);
     ~HostContext();
     HostContext(const HostContext &) = delete;
     HostContext &operator=(const HostContext &) = delete;

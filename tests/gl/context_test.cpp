@@ -1,0 +1,337 @@
+// Owned and borrowed contexts: which thread, which context, whose errors; the host's textures.
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+namespace brume::test {
+namespace {
+
+constexpr int32_t width = 6, height = 4;
+
+std::vector<float> scaled(Backend &backend, float factor)
+{
+    std::vector<float> values = ramp(width * height * 4);
+    backend.invoke([&] {
+        auto program = backend.compile("scale", scale_source, "");
+        const brume_image image = host_image(values.data(), width, height, 4);
+        auto from = backend.import(image, 4);
+        auto to = backend.begin_output(image, 4, false);
+        Pass("scale", *program, width, height).bind("source", *from, BRUME_ACCESS_FETCH)
+            .bind("target", *to, BRUME_ACCESS_WRITE).set("factor", std::vector{factor}).run(backend);
+        backend.finish_output(image, *to);
+        backend.flush();
+    });
+    return values;
+}
+
+std::vector<float> expected(float factor)
+{
+    std::vector<float> values = ramp(width * height * 4);
+    for (float &value : values)
+        value *= factor;
+    return values;
+}
+
+TEST(Owned, ServesAnyThreadAndPassesExceptionsOn)
+{
+    auto backend = owned_backend();
+    EXPECT_EQ(backend->kind(), BRUME_BACKEND_GL);
+    EXPECT_FALSE(backend->device().empty());
+    std::vector<std::thread> threads;
+    for (int i = 1; i <= 4; ++i)
+        threads.emplace_back([&backend, i] { EXPECT_EQ(scaled(*backend, float(i)), expected(float(i))); });
+    for (std::thread &thread : threads)
+        thread.join();
+    EXPECT_THROW(backend->invoke([] { throw std::out_of_range("x"); }), std::out_of_range);
+    backend->invoke([&] { EXPECT_EQ(scaled(*backend, 3), expected(3)) << "nested"; });
+}
+
+TEST(Owned, LeavesTheCallersContextAlone)
+{
+    HostContext host;
+    const EGLContext before = eglGetCurrentContext();
+    {
+        auto backend = owned_backend();
+        EXPECT_EQ(scaled(*backend, 2), expected(2));
+        EXPECT_EQ(eglGetCurrentContext(), before);
+    }
+    EXPECT_EQ(eglGetCurrentContext(), before);
+    // Still alive: ending the owned context must not have ended the display.
+    EXPECT_NE(make_texture(GL_R8, 4, 4), 0u);
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST(Owned, SeveralAtOnceAndOneAfterAnother)
+{
+    for (int round = 0; round < 2; ++round) {
+        auto a = owned_backend(), b = owned_backend();
+        EXPECT_EQ(scaled(*a, 2), expected(2));
+        a.reset();
+        EXPECT_EQ(scaled(*b, 3), expected(3));
+    }
+}
+
+TEST(Owned, HardwareIsNotSoftware)
+{
+    const std::string device = owned_backend()->device();
+    if (device.find("llvmpipe") != std::string::npos) {
+        EXPECT_FALSE(gl_is_hardware(GlOptions{}));
+    }
+    EXPECT_FALSE(gl_is_hardware(GlOptions{true})) << "nothing is current here";
+}
+
+TEST(Borrowed, NeedsTheRightContext)
+{
+    const Failure none = failure_of([] { borrowed_backend(); });
+    EXPECT_EQ(none.status, BRUME_ERROR_GL);
+    EXPECT_NE(none.message.find("no OpenGL context is current"), std::string::npos) << none.message;
+
+    auto host = std::make_unique<HostContext>();
+    auto backend = borrowed_backend();
+    EXPECT_EQ(scaled(*backend, 2), expected(2));
+    std::thread([&] {
+        const Failure other_thread = failure_of([&] { scaled(*backend, 2); });
+        EXPECT_EQ(other_thread.status, BRUME_ERROR_GL);
+        EXPECT_NE(other_thread.message.find("no OpenGL context is current"), std::string::npos) << other_thread.message;
+    }).join();
+    {
+        HostContext other;
+        const Failure another = failure_of([&] { scaled(*backend, 2); });
+        EXPECT_EQ(another.status, BRUME_ERROR_GL);
+        EXPECT_NE(another.message.find("another OpenGL context"), std::string::npos) << another.message;
+    }
+    host->make_current();
+    EXPECT_EQ(scaled(*backend, 2), expected(2));
+
+    // The context may move to another thread.
+    host->release();
+    std::thread([&] {
+        host->make_current();
+        EXPECT_EQ(scaled(*backend, 3), expected(3));
+        host->release();
+    }).join();
+    host->make_current();
+}
+
+TEST(Borrowed, RefusesOtherApis)
+{
+    HostContext host(Profile::es);
+    const Failure es = failure_of([] { borrowed_backend(); });
+    EXPECT_EQ(es.status, BRUME_ERROR_GL);
+    EXPECT_NE(es.message.find("OpenGL ES"), std::string::npos) << es.message;
+    EXPECT_NE(es.message.find("expected OpenGL 4.5"), std::string::npos) << es.message;
+    EXPECT_FALSE(gl_is_hardware(GlOptions{true}));
+}
+
+struct Logged {
+    std::vector<std::string> messages;
+    static void add(void *user, uint32_t, const char *message) { static_cast<Logged *>(user)->messages.push_back(message); }
+};
+
+TEST(Borrowed, PendingErrorsOfTheHostAreReportedAndNotOurs)
+{
+    HostContext host;
+    Logged logged;
+    auto backend = make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
+    EXPECT_TRUE(logged.messages.empty());
+    glEnable(GL_TEXTURE_2D + 12345);  // GL_INVALID_ENUM
+    EXPECT_EQ(scaled(*backend, 2), expected(2));
+    ASSERT_EQ(logged.messages.size(), 1u);
+    EXPECT_NE(logged.messages[0].find("GL_INVALID_ENUM"), std::string::npos) << logged.messages[0];
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST(Borrowed, DestroyedWithoutItsContext)
+{
+    HostContext host;
+    Logged logged;
+    auto backend = make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
+    host.release();
+    backend.reset();
+    ASSERT_EQ(logged.messages.size(), 1u);
+    EXPECT_NE(logged.messages[0].find("left behind"), std::string::npos) << logged.messages[0];
+}
+
+TEST(Borrowed, DeletesItsObjects)
+{
+    HostContext host;
+    auto names = [] {
+        int count = 0;
+        for (GLuint name = 1; name < 200; ++name)
+            count += glIsTexture(name) + glIsProgram(name) + glIsSampler(name) + glIsQuery(name);
+        return count;
+    };
+    auto backend = borrowed_backend();
+    std::shared_ptr<Image> image;
+    std::unique_ptr<FrameTimer> timer;
+    backend->invoke([&] {
+        image = backend->create_image(4, 4, 4, BRUME_PIXEL_F32);
+        timer = backend->create_timer();
+        timer->begin();
+        timer->end();
+    });
+    scaled(*backend, 2);
+    EXPECT_GT(names(), 0);
+    backend.reset();
+    image.reset();
+    timer.reset();
+    EXPECT_EQ(names(), 0);
+}
+
+// What the host's textures may be.
+class Textures : public testing::Test {
+protected:
+    HostContext host;
+    std::unique_ptr<Backend> backend = borrowed_backend();
+
+    // The message of refusing that texture as colour, depth (channels 1) or output.
+    std::string refusal(GLuint texture, int32_t channels, bool output, int32_t w = width, int32_t h = height)
+    {
+        const brume_image image = texture_image(texture, w, h, channels == 1 ? 1 : 4);
+        const Failure failure = failure_of([&] {
+            backend->invoke([&] {
+                backend->check(image, "image", output);
+                if (output)
+                    backend->begin_output(image, channels, true);
+                else
+                    backend->import(image, channels);
+            });
+        });
+        EXPECT_TRUE(failure.status == BRUME_OK || failure.message.find("texture") != std::string::npos) << failure.message;
+        return failure.message;
+    }
+};
+
+TEST_F(Textures, Formats)
+{
+    for (GLenum format : {GL_RGBA32F, GL_RGBA16F, GL_RGB16F, GL_R11F_G11F_B10F, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGB10_A2,
+                          GL_RGB9_E5, GL_RGBA16_SNORM})
+        EXPECT_EQ(refusal(make_texture(format, width, height), 4, false), "") << format;
+    for (GLenum format : {GL_R8, GL_R32F, GL_RG16F, GL_RGBA8UI, GL_RGBA32I, GL_DEPTH_COMPONENT32F})
+        EXPECT_NE(refusal(make_texture(format, width, height), 4, false), "") << format;
+    for (GLenum format : {GL_R32F, GL_R16F, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F,
+                          GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8})
+        EXPECT_EQ(refusal(make_texture(format, width, height), 1, false), "") << format;
+    for (GLenum format : {GL_RGBA32F, GL_R8, GL_R32UI})
+        EXPECT_NE(refusal(make_texture(format, width, height), 1, false), "") << format;
+    for (GLenum format : {GL_RGBA32F, GL_RGBA16F})
+        EXPECT_EQ(refusal(make_texture(format, width, height), 4, true), "") << format;
+    for (GLenum format : {GL_RGB16F, GL_RGBA8, GL_R32F, GL_DEPTH_COMPONENT32F})
+        EXPECT_NE(refusal(make_texture(format, width, height), 4, true), "") << format;
+    EXPECT_EQ(refusal(make_texture(GL_R32F, width, height), 1, true), "");
+    EXPECT_EQ(refusal(make_texture(GL_RGBA16F, width, height), 1, true), "");
+}
+
+TEST_F(Textures, NamesSizesAndTargets)
+{
+    EXPECT_NE(refusal(0, 4, false), "");
+    EXPECT_NE(refusal(4711, 4, false).find("does not exist"), std::string::npos);
+    EXPECT_NE(refusal(make_texture(GL_RGBA16F, 8, 8), 4, false).find("8 x 8"), std::string::npos);
+    GLuint array = 0, empty = 0;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &array);
+    glTextureStorage3D(array, 1, GL_RGBA16F, width, height, 2);
+    EXPECT_NE(refusal(array, 4, false).find("GL_TEXTURE_2D"), std::string::npos);
+    glCreateTextures(GL_TEXTURE_2D, 1, &empty);
+    EXPECT_NE(refusal(empty, 4, false).find("level 0"), std::string::npos);
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST_F(Textures, Parameters)
+{
+    const GLuint swizzled = make_texture(GL_RGBA16F, width, height);
+    glTextureParameteri(swizzled, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
+    EXPECT_NE(refusal(swizzled, 4, false).find("SWIZZLE"), std::string::npos);
+    GLuint levels = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &levels);
+    glTextureStorage2D(levels, 2, GL_RGBA16F, width, height);
+    EXPECT_EQ(refusal(levels, 4, true), "");
+    glTextureParameteri(levels, GL_TEXTURE_BASE_LEVEL, 1);
+    EXPECT_NE(refusal(levels, 4, false).find("BASE_LEVEL 1"), std::string::npos);
+    const GLuint stencil = make_texture(GL_DEPTH24_STENCIL8, width, height);
+    glTextureParameteri(stencil, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
+    EXPECT_NE(refusal(stencil, 1, false).find("STENCIL"), std::string::npos);
+
+    GLuint incomplete = 0;  // as glTexImage2D without a filter leaves it
+    glGenTextures(1, &incomplete);
+    glBindTexture(GL_TEXTURE_2D, incomplete);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
+    EXPECT_NE(refusal(incomplete, 4, true).find("level 1 is missing"), std::string::npos);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    EXPECT_EQ(refusal(incomplete, 4, true), "");
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    EXPECT_EQ(refusal(incomplete, 4, true), "");
+}
+
+// A shadow map's comparison must not turn depth into 0 and 1.
+TEST_F(Textures, DepthIsReadAsItIs)
+{
+    for (GLenum format : {GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8}) {
+        const GLuint depth = make_texture(format, width, height);
+        const float value = 0.25f;
+        glClearTexImage(depth, 0, format == GL_DEPTH24_STENCIL8 ? GL_DEPTH_STENCIL : GL_DEPTH_COMPONENT,
+                        format == GL_DEPTH24_STENCIL8 ? GL_UNSIGNED_INT_24_8 : GL_FLOAT,
+                        format == GL_DEPTH24_STENCIL8 ? static_cast<const void *>("\0\0\0\x40") : &value);
+        glTextureParameteri(depth, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        std::vector<float> values(width * height, -1);
+        backend->invoke([&] {
+            auto program = backend->compile("scale", scale_source, "");
+            const brume_image output = host_image(values.data(), width, height, 1);
+            auto from = backend->import(texture_image(depth, width, height, 1), 1);
+            auto to = backend->begin_output(output, 1, true);
+            Pass("scale", *program, width, height).bind("source", *from, BRUME_ACCESS_FETCH)
+                .bind("target", *to, BRUME_ACCESS_WRITE).set("factor", std::vector{1.0f}).run(*backend);
+            backend->finish_output(output, *to);
+        });
+        for (float got : values)
+            ASSERT_NEAR(got, 0.25f, 1e-7f);
+    }
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST_F(Textures, CopiesBetweenTexturesAndMemory)
+{
+    std::vector<float> values = ramp(width * height * 4), back(values.size());
+    const brume_image source = host_image(values.data(), width, height, 4), target = host_image(back.data(), width, height, 4);
+    const brume_image full = texture_image(make_texture(GL_RGBA32F, width, height), width, height);
+    const brume_image half = texture_image(make_texture(GL_RGBA16F, width, height), width, height);
+    const brume_image second = texture_image(make_texture(GL_RGBA16F, width, height), width, height);
+    backend->invoke([&] {
+        for (const brume_image *image : {&full, &half, &second})
+            EXPECT_EQ(backend->pixel(*image), image == &full ? BRUME_PIXEL_F32 : BRUME_PIXEL_F16);
+        backend->copy(source, full);
+        backend->copy(full, full);
+        backend->copy(full, half);
+        backend->copy(half, second);
+        backend->copy(second, target);
+        backend->flush();
+    });
+    EXPECT_EQ(values, back);  // a ramp of 1/16 steps is exact in halves
+}
+
+TEST_F(Textures, ScalarOutputs)
+{
+    std::vector<float> values = ramp(width * height), back(values.size() * 4);
+    const GLuint texture = make_texture(GL_RGBA32F, width, height);
+    const brume_image output = texture_image(texture, width, height, 1);
+    backend->invoke([&] {
+        auto program = backend->compile("scale", scale_source, "");
+        auto from = backend->import(host_image(values.data(), width, height, 1), 1);
+        auto to = backend->begin_output(output, 1, true);
+        EXPECT_EQ(to->channels, 1);
+        Pass("scale", *program, width, height).bind("source", *from, BRUME_ACCESS_FETCH)
+            .bind("target", *to, BRUME_ACCESS_WRITE).set("factor", std::vector{2.0f}).run(*backend);
+        backend->finish_output(output, *to);
+        backend->copy(output, host_image(back.data(), width, height, 4));
+    });
+    for (size_t i = 0; i < values.size(); ++i) {
+        EXPECT_EQ(back[4 * i], 2 * values[i]);
+        EXPECT_EQ(back[4 * i + 1], 2 * values[i]);
+        EXPECT_EQ(back[4 * i + 3], 1.0f);
+    }
+}
+
+}  // namespace
+}  // namespace brume::test
