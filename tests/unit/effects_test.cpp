@@ -73,9 +73,9 @@ TEST_F(EffectsTest, TakesAGoodPlugin)
 
 TEST_F(EffectsTest, TakesPluginsThatMisbehaveLater)
 {
-    for (const char *name :
-         {"throws_in_plan", "throws_in_execute", "throws_int_in_execute", "throws_in_rows", "throws_in_destroy",
-          "nonsense_status", "nonsense_status_in_plan", "fails_without_message", "plan_without_entry"})
+    for (const char *name : {"throws_in_plan", "throws_in_execute", "throws_int_in_execute", "throws_in_rows",
+                             "throws_in_destroy", "throws_int_in_destroy", "nonsense_status", "nonsense_status_in_plan",
+                             "fails_without_message", "plan_without_entry"})
         EXPECT_EQ(registry.find(name).refusal, "") << name;
 }
 

@@ -11,7 +11,8 @@ constexpr brume_status nonsense = -123456789;
 
 brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *, void **state)
 {
-    *state = nullptr;
+    static int something;
+    *state = &something;
     if (test_case == "throws_in_plan")
         throw std::runtime_error("thrown in plan");
     if (test_case == "nonsense_status_in_plan")
@@ -46,6 +47,8 @@ void destroy(void *)
 {
     if (test_case == "throws_in_destroy")
         throw std::runtime_error("thrown in destroy");
+    if (test_case == "throws_int_in_destroy")
+        throw 42;
 }
 
 const brume_effect effect{
