@@ -33,14 +33,15 @@ uniform float limit;
 uniform sampler2D color;
 writeonly uniform image2D result;
 
-float finite_or_zero(float x)
+// All in halves: the difference of two large radiances must not become infinite.
+float finite_half(float x)
 {
-    return is_finite(x) ? x : 0.0;
+    return is_finite(x) ? 0.5 * x : 0.0;
 }
 
 float graded(float x, float grey)
 {
-    return is_finite(x) ? clamp(gain * (grey + saturation * (x - grey)), -limit, limit) : x;
+    return is_finite(x) ? clamp(2.0 * gain * (grey + saturation * (0.5 * x - grey)), -limit, limit) : x;
 }
 
 void main()
@@ -49,7 +50,7 @@ void main()
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
     vec4 x = texelFetch(color, p, 0);
-    float grey = dot(vec3(finite_or_zero(x.r), finite_or_zero(x.g), finite_or_zero(x.b)), brume_medium.luminance);
+    float grey = dot(vec3(finite_half(x.r), finite_half(x.g), finite_half(x.b)), brume_medium.luminance);
     imageStore(result, p, vec4(graded(x.r, grey), graded(x.g, grey), graded(x.b, grey), x.a));
 }
 )";
@@ -83,22 +84,28 @@ struct Rows {
     brume_plugin_pixels from, to;
 };
 
+float finite_half(float x)
+{
+    return std::isfinite(x) ? 0.5f * x : 0.0f;
+}
+
 // Runs on several threads at once: it writes its own rows and nothing else.
 brume_status grade_rows(void *user, int32_t first, int32_t last)
 {
     const Rows &rows = *static_cast<const Rows *>(user);
     const float gain = rows.grade.gain, saturation = rows.grade.saturation, limit = rows.scene.output_limit;
+    const float *luminance = rows.scene.medium.luminance;
+    const auto graded = [&](float x, float grey) {
+        return std::isfinite(x) ? std::clamp(2.0f * gain * (grey + saturation * (0.5f * x - grey)), -limit, limit) : x;
+    };
     for (int32_t y = first; y < last; ++y) {
         const float *from = rows.from.data + y * rows.from.row_stride;
         float *to = rows.to.data + y * rows.to.row_stride;
         for (int32_t x = 0; x < rows.from.width; ++x, from += 4, to += 4) {
-            float grey = 0;
+            const float grey = luminance[0] * finite_half(from[0]) + luminance[1] * finite_half(from[1]) +
+                               luminance[2] * finite_half(from[2]);
             for (int c = 0; c < 3; ++c)
-                grey += std::isfinite(from[c]) ? from[c] * rows.scene.medium.luminance[c] : 0;
-            for (int c = 0; c < 3; ++c)
-                to[c] = std::isfinite(from[c])
-                            ? std::clamp(gain * (grey + saturation * (from[c] - grey)), -limit, limit)
-                            : from[c];
+                to[c] = graded(from[c], grey);
             to[3] = from[3];
         }
     }
