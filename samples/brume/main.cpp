@@ -8,6 +8,7 @@
 
 #include "commands/commands.hpp"
 #include "support/error.hpp"
+#include "support/text.hpp"
 
 int main(int argc, char** argv) {
   using namespace brume::tool;
@@ -30,13 +31,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kDone : kWrongRequest;
   } catch (const RequestError& e) {
-    fmt::print(stderr, "brume: {}\n", e.what());
+    fmt::print(stderr, "brume: {}\n", printable(e.what()));
     return kWrongRequest;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "brume: out of memory\n");
     return kSomeFailed;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "brume: {}\n", e.what());
+    fmt::print(stderr, "brume: {}\n", printable(e.what()));
     return kSomeFailed;
   }
 }

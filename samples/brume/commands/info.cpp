@@ -14,6 +14,7 @@
 #include "frames/pattern.hpp"
 #include "run/depth_count.hpp"
 #include "support/error.hpp"
+#include "support/text.hpp"
 
 namespace brume::tool {
 namespace {
@@ -85,7 +86,7 @@ std::string window_text(const ordered_json& w) {
   return fmt::format("{} x {} at ({}, {})", w["width"].get<int>(), w["height"].get<int>(), w["x"].get<int>(), w["y"].get<int>());
 }
 
-std::string text(const ordered_json& value) { return value.get<std::string>(); }
+std::string text(const ordered_json& value) { return printable(value.get<std::string>()); }
 
 void print_text(const ordered_json& info) {
   fmt::print("file     {}\n", text(info["file"]));
@@ -105,7 +106,7 @@ void print_text(const ordered_json& info) {
   const auto& depth = info["depth"];
   if (depth.contains("none")) fmt::print("depth    none: {}\n", text(depth["none"]));
   else
-    fmt::print("depth    {} in {}: {}; {}, {} to {}, {} far (sky from {}), {} NaN\n", text(depth["channel"]), text(depth["part"]),
+    fmt::print("depth    {} in {}: {}; {}, {:g} to {:g}, {} far (sky from {:g}), {} NaN\n", text(depth["channel"]), text(depth["part"]),
                text(depth["chosen"]), text(depth["kind"]), depth["nearest"].get<double>(), depth["farthest"].get<double>(),
                depth["far_pixels"].get<std::uint64_t>(), depth["far"].get<double>(), depth["nan_pixels"].get<std::uint64_t>());
   const auto& camera = info["camera"];

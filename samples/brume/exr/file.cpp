@@ -83,8 +83,9 @@ void ExrFile::rethrow(const std::string& doing, const std::exception& e) const {
   if (dynamic_cast<const FrameError*>(&e)) throw;
   if (dynamic_cast<const std::bad_alloc*>(&e))
     throw FrameError(fmt::format("{}: out of memory while {}", path_.string(), doing));
-  // OpenEXR's messages name the file themselves, over several lines.
+  // OpenEXR's messages name the file once more, over several lines.
   std::string what = e.what();
+  for (const std::string named = " \"" + path_.string() + "\""; what.find(named) != std::string::npos;) what.erase(what.find(named), named.size());
   std::replace(what.begin(), what.end(), '\n', ' ');
   throw FrameError(fmt::format("{}: {}: {}", path_.string(), doing, what));
 }

@@ -71,6 +71,15 @@ std::vector<float> place(const std::vector<float>& depth, const PartInfo& from, 
 
 }  // namespace
 
+bool is_lossy_for(Imf::Compression compression, Imf::PixelType type) {
+  switch (compression) {
+    case Imf::B44_COMPRESSION: case Imf::B44A_COMPRESSION: return type == Imf::HALF;
+    case Imf::DWAA_COMPRESSION: case Imf::DWAB_COMPRESSION: return type != Imf::UINT;
+    case Imf::PXR24_COMPRESSION: return type == Imf::FLOAT;
+    default: return false;
+  }
+}
+
 std::uint64_t frame_bytes(const ExrFile& file, const ColorChoice& color) {
   const PartInfo& part = file.parts()[color.part];
   std::uint64_t bytes = 0;

@@ -36,6 +36,9 @@ struct DepthSource {
   DepthChoice choice;
 };
 
+/// Whether a channel of this type loses something when it is stored with this compression.
+bool is_lossy_for(Imf::Compression compression, Imf::PixelType type);
+
 /// What read_frame will allocate, from the headers alone.
 std::uint64_t frame_bytes(const ExrFile& file, const ColorChoice& color);
 

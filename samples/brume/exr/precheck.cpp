@@ -174,6 +174,8 @@ class Walker {
     if (!part.display) fail("no 'displayWindow'");
     check_window("dataWindow", *part.data);
     check_window("displayWindow", *part.display);
+    if (part.data->width() > limits_.side || part.data->height() > limits_.side)
+      fail(fmt::format("data window of {} x {} pixels (expected at most {} each way)", part.data->width(), part.data->height(), limits_.side));
     if (part.channels == 0) fail("no channels");
     if (!part.compression || *part.compression > 9)
       fail(fmt::format("compression {} (expected 0 to 9)", part.compression ? int(*part.compression) : -1));
@@ -181,7 +183,7 @@ class Walker {
     const std::uint64_t pixels = std::uint64_t(part.data->width()) * std::uint64_t(part.data->height());
     const bool deep = part.type.empty() ? (flags_ & kDeepFlag) != 0 : part.type.starts_with("deep");
     if (!deep && pixels > limits_.part_bytes / part.bytes_per_pixel)
-      fail(fmt::format("{} x {} pixels of {} channels need {} MiB (limit {} MiB)", part.data->width(),
+      fail(fmt::format("{} x {} pixels of {} channels need {} MiB (limit {} MiB; run takes --mem)", part.data->width(),
                        part.data->height(), part.channels, pixels * part.bytes_per_pixel >> 20,
                        limits_.part_bytes >> 20));
 

@@ -82,15 +82,6 @@ const Plane* find_plane(const std::vector<Plane>& planes, const std::string& nam
   return at == planes.end() ? nullptr : &*at;
 }
 
-bool is_lossy_for(Imf::Compression compression, Imf::PixelType type) {
-  switch (compression) {
-    case Imf::B44_COMPRESSION: case Imf::B44A_COMPRESSION: return type == Imf::HALF;
-    case Imf::DWAA_COMPRESSION: case Imf::DWAB_COMPRESSION: return type != Imf::UINT;
-    case Imf::PXR24_COMPRESSION: return type == Imf::FLOAT;
-    default: return false;
-  }
-}
-
 Imf::Header header_of_rewritten(const Frame& frame, const std::vector<Plane>& outgoing, const WriteOptions& options,
                                 std::vector<std::string>& warnings) {
   Imf::Header header = frame.file.header(frame.color.part);

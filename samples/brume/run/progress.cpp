@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "support/text.hpp"
+
 namespace brume::tool {
 
 std::string clock_text(double seconds) {
@@ -29,7 +31,7 @@ void Progress::done(const std::string& frame, double seconds) {
 
 void Progress::note(const std::string& text) {
   erase();
-  fmt::print(stderr, "brume: {}\n", text);
+  fmt::print(stderr, "brume: {}\n", printable(text));
   if (drawn_) draw();
 }
 

@@ -160,6 +160,9 @@ class Sequence {
     const DepthSource depth{depth_file, open.depth};
     job.stats.color = fmt::format("{}: {}", open.color.label(), open.color.reason);
     job.stats.depth = fmt::format("{}{}: {}", depth_file ? depth_file->path().string() + ":" : "", open.depth.channel, open.depth.reason);
+    const PartInfo& depth_part = (depth_file ? *depth_file : open.file).parts()[open.depth.part];
+    if (is_lossy_for(depth_part.compression, depth_part.find(open.depth.channel)->type))
+      job.stats.warnings.push_back(fmt::format("depth '{}' is stored with a lossy compression: edges may show it", open.depth.channel));
     job.weights = colors_.luminance_weights(open.file.header(open.color.part));
     job.frame.emplace(read_frame(std::move(open.file), open.color, &depth));
     Frame& frame = *job.frame;
