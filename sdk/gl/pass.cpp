@@ -124,10 +124,24 @@ private:
             bind(slot->second, static_cast<const GlImage &>(*binding.image), binding.access);
             bound.push_back(&slot->second);
         }
-        // An unbound one would read or write what the host has on that unit.
+        // What an effect leaves out must not be what the host has on that unit.
         for (const auto &[name, slot] : program.slots())
             if (std::find(bound.begin(), bound.end(), &slot) == bound.end())
-                refuse("nothing is bound to \"" + name + "\" of program \"" + program.name() + "\"");
+                bind_nothing(slot);
+    }
+
+    // Reads give (0, 0, 0, 1), writes are dropped.
+    void bind_nothing(const GlProgram::Slot &slot) const
+    {
+        if (slot.image) {
+            guard_.image_unit(slot.unit);
+            glBindImageTexture(slot.unit, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+        } else {
+            guard_.texture_unit(slot.unit);
+            glActiveTexture(GL_TEXTURE0 + slot.unit);  // glBindTextureUnit would clear the unit's other targets too
+            glBindTexture(GL_TEXTURE_2D, 0);
+            glBindSampler(slot.unit, samplers_.nearest);
+        }
     }
 
     void bind(const GlProgram::Slot &slot, const GlImage &image, uint32_t access) const

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "support.h"
+#include "host_context.h"
 
 namespace brume::test {
 namespace {

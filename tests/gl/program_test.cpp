@@ -174,7 +174,6 @@ TEST_F(Programs, MistakesOfEffectsAreNamed)
         expect(message([](Pass &p) { p.bindings[0].access = 7; }), "access 7");
         expect(message([](Pass &p) { p.bindings[0].access = BRUME_ACCESS_WRITE; }), "sampler2D");
         expect(message([](Pass &p) { p.bindings[1].access = BRUME_ACCESS_LINEAR; }), "image2D");
-        expect(message([](Pass &p) { p.bindings.pop_back(); }), "nothing is bound to \"target\"");
         expect(message([](Pass &p) { p.set("factor", std::vector{1.0f, 2.0f}); }), "is float");
         expect(message([](Pass &p) { p.set("factor", std::vector{1}); }), "is float");
         expect(message([](Pass &p) { p.set("brume_grid", std::vector{1, 1}); }), "set by the host");
@@ -183,6 +182,16 @@ TEST_F(Programs, MistakesOfEffectsAreNamed)
         expect(message([](Pass &p) { p.uniforms.push_back({"factor", 0, 1, 0, 0, &p}); }), "count 0");
         expect(message([](Pass &p) { p.uniforms.push_back({"factor", 0, 1, 1, 0, nullptr}); }), "data is NULL");
         expect(message([](Pass &p) { p.uniforms.push_back({nullptr, 0, 1, 1, 0, &p}); }), "name is NULL");
+    });
+}
+
+// Not what the host, or the pass before, has on that unit.
+TEST_F(Programs, UnboundImagesReadAsZeroAndDropWrites)
+{
+    EXPECT_EQ(evaluate(storing("texelFetch(missing, ivec2(0), 0).x + 1.0", "uniform sampler2D missing;")), 1.0f);
+    backend->invoke([&] {
+        auto program = backend->compile("mine.comp", storing("1.0"), "");
+        Pass("evaluate", *program, 1, 1).run(*backend);
     });
 }
 

@@ -5,30 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <epoxy/egl.h>
-#include <epoxy/gl.h>
-
 #include "core/backend.h"
 #include "core/error.h"
+#include "host_context.h"
 
 namespace brume::test {
-
-enum class Profile { core, compatibility, es };
-
-// A host's context: made here and current on this thread while it lives.
-class HostContext {
-public:
-    explicit HostContext(Profile profile = Profile::core);
-    ~HostContext();
-    HostContext(const HostContext &) = delete;
-    HostContext &operator=(const HostContext &) = delete;
-    void make_current() const;
-    void release() const;
-
-private:
-    EGLDisplay display_;
-    EGLContext context_;
-};
 
 std::unique_ptr<Backend> owned_backend();
 std::unique_ptr<Backend> borrowed_backend(uint32_t state = BRUME_GL_STATE_PRESERVE);
@@ -43,8 +24,6 @@ Failure failure_of(const std::function<void()> &work);
 // An image of the caller's memory; strides 0 for packed ones.
 brume_image host_image(void *data, int32_t width, int32_t height, uint32_t channels, uint32_t pixel = BRUME_PIXEL_F32);
 brume_image texture_image(GLuint texture, int32_t width, int32_t height, uint32_t channels = 4);
-
-GLuint make_texture(GLenum format, int32_t width, int32_t height);
 
 // A pass with its bindings and uniforms, as effects build them.
 struct Pass {
