@@ -17,9 +17,10 @@ inline bool is_finite(double x)
     return (std::bit_cast<uint64_t>(x) & 0x7ff0000000000000u) != 0x7ff0000000000000u;
 }
 
-// The files say `float` and R(literal) for the real type at hand, and PURE before each function.
+// The files say `float` and R(literal) for the real type at hand, and PURE before each function (which
+// must be inlined: the loops over taps unroll only where the caller's constants reach them).
 #define R(x) real(x)
-#define PURE inline
+#define PURE [[gnu::always_inline]] inline
 
 namespace maths_float {
 using real = float;

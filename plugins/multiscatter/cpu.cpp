@@ -25,7 +25,7 @@ struct Frame {
     }
 };
 
-sampler2D sampler(const brume_plugin_pixels &p)
+Texture sampler(const brume_plugin_pixels &p)
 {
     return {p.data, p.row_stride, p.width, p.height, p.channels};
 }
@@ -91,9 +91,9 @@ template <int taps> void downsample_row(const Frame &frame, int level, int y)
     ivec2 size = level_size(base, level), finer_size = level_size(base, level - 1);
     int row = level_row(base, level), finer_row = level == 1 ? 0 : level_row(base, level - 1);
     const Filter &f = frame.filter;
-    sampler2D radiance = sampler(level == 1 ? frame.radiance : frame.radiance_stack);
-    sampler2D separated = sampler(level == 1 ? frame.separated : frame.separated_stack);
-    sampler2D spread = sampler(level == 1 ? frame.radiance : frame.spread_stack);
+    Texture radiance = sampler(level == 1 ? frame.radiance : frame.radiance_stack);
+    Texture separated = sampler(level == 1 ? frame.separated : frame.separated_stack);
+    Texture spread = sampler(level == 1 ? frame.radiance : frame.spread_stack);
     for (int x = 0; x < size.x; ++x) {
         ivec2 texel(x, y);
         store(frame.radiance_stack, x, row + y,
@@ -127,9 +127,9 @@ brume_status downsample(Frame &frame)
 brume_status compose(Frame &frame)
 {
     Pyramid pyramid{ivec2(frame.state.width, frame.state.height), frame.state.top};
-    sampler2D radiance = sampler(frame.radiance), stack = sampler(frame.radiance_stack);
-    sampler2D spread_stack = sampler(frame.spread_stack);
-    sampler2D separated = sampler(frame.separated), separated_stack = sampler(frame.separated_stack);
+    Texture radiance = sampler(frame.radiance), stack = sampler(frame.radiance_stack);
+    Texture spread_stack = sampler(frame.spread_stack);
+    Texture separated = sampler(frame.separated), separated_stack = sampler(frame.separated_stack);
     return for_rows(frame, "compose", frame.state.height, 8, [&](int y) {
         for (int x = 0; x < frame.state.width; ++x) {
             vec2 centre = pixel_centre(x, y);

@@ -39,6 +39,7 @@ private:
     }
 
     double largest_blur() const;
+    brume_status need_camera(bool scatters);
     brume_status plan_levels(State &state);
     brume_status plan_paper(State &state);
 
@@ -70,6 +71,21 @@ double Planner::largest_blur() const
     double focal = std::sqrt(double(request_.scene->camera.focal[0]) * request_.scene->camera.focal[1]);
     double p = std::sqrt(6 / (a * kappa));
     return focal * m.constant * std::sqrt(kappa * p / (8 + 4.0 / 3.0 * a * kappa * p * p));
+}
+
+brume_status Planner::need_camera(bool scatters)
+{
+    auto need = [&](bool condition, uint32_t what, const char *reason) {
+        return condition ? services_.need_camera(host_, what, reason) : BRUME_OK;
+    };
+    if (brume_status s = need(scatters, BRUME_CAMERA_FIELD_OF_VIEW,
+                              "the blur's width in pixels follows from the field of view"))
+        return s;
+    if (brume_status s = need(request_.scene->camera.depth_kind != BRUME_DEPTH_RAY, BRUME_CAMERA_FIELD_OF_VIEW,
+                              "the depth is planar and the field of view turns it into distance along the ray"))
+        return s;
+    return need(request_.pose_matters != 0, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
+                "the medium's density changes with the position");
 }
 
 brume_status Planner::plan_levels(State &state)
@@ -169,9 +185,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->width = request_.width;
     state->height = request_.height;
     state->scatters = scatters;
-    brume_status s = BRUME_OK;
-    if (scatters)
-        s = services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW, "the blur's width in pixels follows from the field of view");
+    brume_status s = need_camera(scatters);
     if (s)
         return s;
     if (state->parameters.kernel == Kernel::reference) {

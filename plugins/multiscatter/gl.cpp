@@ -65,7 +65,10 @@ private:
     brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
                      std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
     {
-        std::erase_if(bindings, [](const brume_plugin_binding &b) { return !b.image; });
+        // What this plan or frame does without is never touched; GL still wants something bound there.
+        for (brume_plugin_binding &b : bindings)
+            if (!b.image)
+                b.image = b.access == BRUME_ACCESS_WRITE ? frame_.output : frame_.color;
         auto filter = filter_uniforms(filter_);
         uniforms.insert(uniforms.end(), filter.begin(), filter.end());
         brume_plugin_pass pass{sizeof pass,     uint32_t(bindings.size()), name,   program, bindings.data(),

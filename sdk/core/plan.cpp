@@ -78,9 +78,7 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
         try {
             plan_effects();
         } catch (...) {
-            for (auto &planned : effects_)
-                if (planned.state)
-                    planned.effect->table->destroy(planned.state);
+            destroy_states();
             images_.clear();
             throw;
         }
@@ -92,9 +90,7 @@ brume_host_t::~brume_host_t()
 {
     try {
         context_->backend->invoke([&] {
-            for (auto &planned : effects_)
-                if (planned.state)
-                    planned.effect->table->destroy(planned.state);
+            destroy_states();
             images_.clear();
             between_[0] = between_[1] = nullptr;
             programs_.clear();
@@ -102,6 +98,21 @@ brume_host_t::~brume_host_t()
         });
     } catch (const std::exception &error) {
         context_->log(BRUME_LOG_ERROR, std::string("plan: ") + error.what());
+    }
+}
+
+void brume_host_t::destroy_states() noexcept
+{
+    for (auto &planned : effects_) {
+        if (!planned.state)
+            continue;
+        try {
+            auto held = hold_if_unsafe(planned.effect->table);
+            planned.effect->table->destroy(planned.state);
+        } catch (...) {
+            context_->log(BRUME_LOG_ERROR, planned.effect->name + ": threw in destroy");
+        }
+        planned.state = nullptr;
     }
 }
 
@@ -155,13 +166,6 @@ void brume_host_t::plan_effects()
         plan_effect(planned, scene);
 
     auto running = std::count_if(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
-    if (running > 0) {
-        if (format_.depth_kind != BRUME_DEPTH_RAY)
-            need_camera(BRUME_CAMERA_FIELD_OF_VIEW, "the depth is planar: the field of view turns it into distance");
-        if (pose_matters(scene_))
-            need_camera(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
-                        "the medium's density changes with the position");
-    }
     for (int i = 0; i < std::min<int>(int(running) - 1, 2); ++i) {
         between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
         image_bytes_ += uint64_t(format_.width) * uint64_t(format_.height) * 16;

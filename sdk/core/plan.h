@@ -56,6 +56,7 @@ public:
 
 private:
     void plan_effects();
+    void destroy_states() noexcept;
     void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene);
     void run_effects(const brume_frame &frame, const brume_plugin_scene &scene);
     void copy_frame(const brume_frame &frame);

@@ -74,7 +74,17 @@ const brume_services &services()
         },
         [](brume_host host, const char *name, int32_t count, int32_t grain, brume_rows_function function, void *user) {
             brume_status result = BRUME_OK;
-            brume_status status = guarded(host, [&] { result = host->rows(name, count, grain, function, user); });
+            brume_status status = guarded(host, [&] {
+                try {
+                    result = host->rows(name, count, grain, function, user);
+                } catch (const Error &) {
+                    throw;
+                } catch (const std::exception &error) {
+                    throw Error(BRUME_ERROR_PLUGIN, std::string("threw in a loop over rows: ") + error.what());
+                } catch (...) {
+                    throw Error(BRUME_ERROR_PLUGIN, "threw in a loop over rows");
+                }
+            });
             return status != BRUME_OK ? status : result;
         },
         [](brume_host host, brume_plugin_image image, brume_plugin_pixels *out) {

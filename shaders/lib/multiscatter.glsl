@@ -1,6 +1,5 @@
 // The hierarchical filter, kernel `paper` (Iser 2018 sec. 4, Fig. 4): the body of each of its passes.
-// Needs the other files here, and three image reads that GLSL has and maths_types.inc gives to C++:
-// texelFetch, and fetch_linear (bilinear at a texel position, where texel i has its centre at i; callers clamp).
+// Needs the other files here; the image reads are fetch.glsl's in GLSL and fetch.hpp's in C++.
 
 const int fetch_linear_bilinear = 0;
 const int fetch_linear_bicubic = 1;
@@ -102,33 +101,31 @@ struct Pyramid {
     int top;
 };
 
-PURE vec4 fetch_clamped(sampler2D image, vec2 position, ivec2 size, int row)
+PURE Region level_region(Pyramid pyramid, int level)
 {
-    vec2 p = clamp(position, vec2(R(0.0)), vec2(size - 1));
-    return fetch_linear(image, vec2(p.x, p.y + float(row)));
+    return level <= 0 ? Region(pyramid.size, 0) : Region(level_size(pyramid.size, level), level_row(pyramid.size, level));
 }
 
-PURE vec4 fetch_in_level(sampler2D image, int level, int row, ivec2 size, vec2 pixel, bool cubic)
+// One level, of which level 0 is in `base`. Coarser than K is K.
+PURE vec4 fetch_level(sampler2D base, sampler2D stack, Pyramid pyramid, int level, vec2 pixel, int mode)
 {
-    vec2 position = level_position(pixel, level);
-    if (!cubic)
-        return fetch_clamped(image, position, size, row);
-    vec2 origin = floor(position);
-    vec2 f = position - origin;
-    vec4 x = cubic_taps(f.x);
-    vec4 y = cubic_taps(f.y);
-    return (fetch_clamped(image, origin + vec2(x.x, y.x), size, row) * x.z +
-            fetch_clamped(image, origin + vec2(x.y, y.x), size, row) * x.w) * y.z +
-           (fetch_clamped(image, origin + vec2(x.x, y.y), size, row) * x.z +
-            fetch_clamped(image, origin + vec2(x.y, y.y), size, row) * x.w) * y.w;
+    int k = clamp(level, 0, pyramid.top);
+    Region region = level_region(pyramid, k);
+    vec2 position = level_position(pixel, k);
+    if (mode == fetch_linear_bilinear)
+        return k == 0 ? fetch_linear(base, region, position) : fetch_linear(stack, region, position);
+    return k == 0 ? fetch_bicubic(base, region, position) : fetch_bicubic(stack, region, position);
 }
 
-PURE vec4 fetch_level(sampler2D base, sampler2D stack, Pyramid pyramid, int level, vec2 pixel, bool cubic)
+// The same of W blurred: level 0 is the fourth channel of the radiance, the others are an image of one channel.
+PURE float fetch_spread_level(sampler2D base, sampler2D stack, Pyramid pyramid, int level, vec2 pixel, int mode)
 {
-    if (level <= 0)
-        return fetch_in_level(base, 0, 0, pyramid.size, pixel, cubic);
-    int k = min(level, pyramid.top);
-    return fetch_in_level(stack, k, level_row(pyramid.size, k), level_size(pyramid.size, k), pixel, cubic);
+    int k = clamp(level, 0, pyramid.top);
+    Region region = level_region(pyramid, k);
+    vec2 position = level_position(pixel, k);
+    if (mode == fetch_linear_bilinear)
+        return k == 0 ? fetch_linear_channel(base, region, position, 3) : fetch_linear_channel(stack, region, position, 0);
+    return k == 0 ? fetch_bicubic_channel(base, region, position, 3) : fetch_bicubic_channel(stack, region, position, 0);
 }
 
 // Weights of the levels floor(k) - 1 to floor(k) + 2 for a fraction f between floor(k) and the next.
@@ -145,24 +142,18 @@ PURE vec4 fetch_pyramid(sampler2D base, sampler2D stack, Pyramid pyramid, int mo
     vec4 sum = vec4(R(0.0));
     for (int i = 0; i < 4; ++i)
         if (weights[i] > R(0.0))
-            sum += weights[i] *
-                   fetch_level(base, stack, pyramid, below - 1 + i, pixel, mode != fetch_linear_bilinear);
+            sum += weights[i] * fetch_level(base, stack, pyramid, below - 1 + i, pixel, mode);
     return sum;
 }
 
-// The same of W blurred: level 0 is the radiance's fourth channel, the others are images of one.
 PURE float fetch_spread(sampler2D base, sampler2D stack, Pyramid pyramid, int mode, vec2 pixel, float level)
 {
     int below = int(level);
     vec4 weights = level_weights(mode, level - float(below));
     float sum = R(0.0);
-    for (int i = 0; i < 4; ++i) {
-        int k = below - 1 + i;
-        if (weights[i] > R(0.0)) {
-            vec4 t = fetch_level(base, stack, pyramid, k, pixel, mode != fetch_linear_bilinear);
-            sum += weights[i] * (k <= 0 ? t.w : t.x);
-        }
-    }
+    for (int i = 0; i < 4; ++i)
+        if (weights[i] > R(0.0))
+            sum += weights[i] * fetch_spread_level(base, stack, pyramid, below - 1 + i, pixel, mode);
     return sum;
 }
 

@@ -9,6 +9,12 @@ PURE ivec2 level_size(ivec2 base, int level)
     return ivec2(((base.x - 1) >> level) + 1, ((base.y - 1) >> level) + 1);
 }
 
+// A level's place in its image; positions are texels of the level, where texel i has its centre at i.
+struct Region {
+    ivec2 size;
+    int row;
+};
+
 // First row of a level in the shared image.
 PURE int level_row(ivec2 base, int level)
 {
@@ -44,7 +50,7 @@ PURE float spread_level(float spread, float c, float top)
 // M[k] = smoothstep(T, (1 + eps) T, W[k-1]), T = c 2^(k-1): keeps light that spreads too little out of level k.
 PURE float leak_mask(float spread, float c, float epsilon, int level)
 {
-    float t = c * exp2(float(level - 1));
+    float t = R(0.5) * c * float(1 << level);
     float x = clamp((spread - t) / max(epsilon * t, R(1e-6)), R(0.0), R(1.0));
     return x * x * (R(3.0) - R(2.0) * x);
 }
@@ -57,20 +63,10 @@ PURE vec4 cubic_weights(float f)
            R(6.0);
 }
 
-// Sigg and Hadwiger 2005: the four weights as two linear fetches, at offsets xy from the sample left of the point, with
-// weights zw.
-PURE vec4 cubic_taps(float f)
-{
-    vec4 w = cubic_weights(f);
-    float left = w.x + w.y;
-    float right = w.z + w.w;
-    return vec4(w.y / left - R(1.0), R(1.0) + w.w / right, left, right);
-}
-
 // Centre of a base-level pixel in texel coordinates of a level, where texel i has its centre at i.
 PURE vec2 level_position(vec2 pixel, int level)
 {
-    return pixel * exp2(-float(level)) - R(0.5);
+    return pixel / float(1 << level) - R(0.5);
 }
 
 // smoothstep(edge, edge + width, x) that is a step for width 0.

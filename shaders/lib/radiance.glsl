@@ -32,6 +32,8 @@ PURE vec3 scattered_share(Medium medium, float p)
 // Emitted light that scatters on its way is not followed. Saturates at C_e / C_t.
 PURE vec3 emitted(Medium medium, float p)
 {
+    if (medium.emission == vec3(R(0.0)))
+        return vec3(R(0.0));
     vec3 tau = optical_depth(medium, p);
     return medium.emission * p * vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
 }

@@ -41,7 +41,8 @@ typedef struct brume_program_t *brume_program;         /* a compiled compute sha
 
 /* ---- what effects see of the scene: all of it relative to the camera, in metres, for one frame ----------------------
    These two structs are also GLSL structs of the same names and members (shaders/lib/scene.glsl); programs that declare
-   `uniform Medium brume_medium;`, `uniform Camera brume_camera;` get them filled by the host. */
+   `uniform Medium brume_medium;`, `uniform Camera brume_camera;` or `uniform float brume_output_limit;` get them filled by
+   the host. */
 
 typedef struct brume_plugin_medium {
   float scattering[3];  /* at unit density [1/m] */
