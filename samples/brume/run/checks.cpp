@@ -19,7 +19,9 @@ using FileId = std::pair<dev_t, ino_t>;
 
 std::optional<FileId> id_of(const std::filesystem::path& file) {
   struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+  std::error_code error;
+  // "new/../a.exr" is nothing until the folder `new` has been made, and a.exr from then on.
+  if (::stat(file.c_str(), &status) != 0 && ::stat(std::filesystem::weakly_canonical(file, error).c_str(), &status) != 0) return std::nullopt;
   return FileId{status.st_dev, status.st_ino};
 }
 
