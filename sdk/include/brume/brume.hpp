@@ -1,0 +1,258 @@
+// Brume for C++17 and later: brume.h with handles that clean up after themselves and failures that are exceptions.
+// Header-only; everything it does goes through the C ABI, whose header is the manual.
+//
+//   brume::Context context;
+//   brume::Scene scene(context, text, "fog.json");
+//   brume::Plan plan(scene, brume::format(1920, 1080));
+//   plan.execute(brume::image(rgba, 1920, 1080, 4), brume::image(z, 1920, 1080, 1), brume::image(out, 1920, 1080, 4));
+#ifndef BRUME_BRUME_HPP
+#define BRUME_BRUME_HPP
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "brume.h"
+
+namespace brume {
+
+class Error : public std::runtime_error {
+public:
+    Error(brume_status status, const std::string &message) : std::runtime_error(message), status_(status) {}
+    brume_status status() const noexcept { return status_; }
+
+private:
+    brume_status status_;
+};
+
+namespace detail {
+
+// Calls a function that copies text out as brume_message does.
+template <class Copy> std::string copied_text(Copy copy)
+{
+    std::string text(copy(nullptr, std::size_t(0)), '\0');
+    copy(&text[0], text.size());
+    text.pop_back();
+    return text;
+}
+
+inline void check(brume_context context, brume_status status)
+{
+    if (status == BRUME_OK)
+        return;
+    std::string message = copied_text([&](char *to, std::size_t size) { return brume_message(context, to, size); });
+    throw Error(status, message.empty() ? brume_status_name(status) : message);
+}
+
+struct Destroy {
+    void operator()(brume_scene scene) const { brume_scene_destroy(scene); }
+    void operator()(brume_plan plan) const { brume_plan_destroy(plan); }
+};
+
+}  // namespace detail
+
+// Copies share one context; it is destroyed with the last copy, scene and plan of it.
+class Context {
+public:
+    explicit Context(const brume_context_desc &desc = brume_context_desc BRUME_CONTEXT_DESC_INIT)
+    {
+        brume_context context = nullptr;
+        detail::check(nullptr, brume_context_create(&desc, &context));
+        handle_.reset(context, brume_context_destroy);
+    }
+
+    brume_context get() const { return handle_.get(); }
+    void check(brume_status status) const { detail::check(get(), status); }
+
+    brume_context_info info() const
+    {
+        brume_context_info info = BRUME_CONTEXT_INFO_INIT;
+        check(brume_context_get_info(get(), &info));
+        return info;
+    }
+
+    // Plugins that were refused included: their `refusal` says why.
+    std::vector<brume_effect_info> effects() const
+    {
+        std::vector<brume_effect_info> all(brume_effect_count(get()), brume_effect_info BRUME_EFFECT_INFO_INIT);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            check(brume_effect_get_info(get(), std::uint32_t(i), &all[i]));
+        return all;
+    }
+
+    std::vector<brume_parameter_info> parameters(const std::string &effect) const
+    {
+        std::vector<brume_parameter_info> all;
+        for (const brume_effect_info &info : effects()) {
+            if (info.refusal || effect != info.name)
+                continue;
+            all.assign(info.parameter_count, brume_parameter_info BRUME_PARAMETER_INFO_INIT);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                check(brume_parameter_get_info(get(), effect.c_str(), std::uint32_t(i), &all[i]));
+            return all;
+        }
+        brume_parameter_info none = BRUME_PARAMETER_INFO_INIT;
+        check(brume_parameter_get_info(get(), effect.c_str(), 0, &none));
+        return all;
+    }
+
+    std::string scene_schema() const
+    {
+        return detail::copied_text(
+            [&](char *to, std::size_t size) { return brume_scene_schema(get(), to, size); });
+    }
+
+private:
+    std::shared_ptr<brume_context_t> handle_;
+};
+
+class Scene {
+public:
+    explicit Scene(const Context &context) : context_(context)
+    {
+        brume_scene scene = nullptr;
+        context_.check(brume_scene_create(context_.get(), &scene));
+        handle_.reset(scene);
+    }
+
+    // From scene-file text; `name` stands for the file in messages.
+    Scene(const Context &context, std::string_view text, const std::string &name = "scene") : context_(context)
+    {
+        brume_scene scene = nullptr;
+        context_.check(brume_scene_create_from_text(context_.get(), text.data(), text.size(), name.c_str(), &scene));
+        handle_.reset(scene);
+    }
+
+    brume_scene get() const { return handle_.get(); }
+    const Context &context() const { return context_; }
+
+    void set_medium(const brume_medium &medium) { context_.check(brume_scene_set_medium(get(), &medium)); }
+    void remove_medium() { context_.check(brume_scene_set_medium(get(), nullptr)); }
+    void set_camera(const brume_camera &camera) { context_.check(brume_scene_set_camera(get(), &camera)); }
+    void set_metres_per_unit(double metres) { context_.check(brume_scene_set_metres_per_unit(get(), metres)); }
+    void set_luminance_weights(double r, double g, double b)
+    {
+        const double weights[3] = {r, g, b};
+        context_.check(brume_scene_set_luminance_weights(get(), weights));
+    }
+
+    // BRUME_CAMERA_... flags.
+    std::uint32_t camera_given() const
+    {
+        std::uint32_t given = 0;
+        context_.check(brume_scene_get_camera_given(get(), &given));
+        return given;
+    }
+
+    void add_effect(const std::string &effect)
+    {
+        context_.check(brume_scene_set_text(get(), effect.c_str(), nullptr, nullptr));
+    }
+    void set(const std::string &effect, const std::string &parameter, const std::string &value)
+    {
+        context_.check(brume_scene_set_text(get(), effect.c_str(), parameter.c_str(), value.c_str()));
+    }
+    void set(const std::string &effect, const std::string &parameter, double value)
+    {
+        context_.check(brume_scene_set_number(get(), effect.c_str(), parameter.c_str(), value));
+    }
+
+private:
+    Context context_;
+    std::unique_ptr<brume_scene_t, detail::Destroy> handle_;
+};
+
+class Plan {
+public:
+    Plan(const Scene &scene, const brume_format &format) : context_(scene.context())
+    {
+        brume_plan plan = nullptr;
+        context_.check(brume_plan_create(scene.get(), &format, &plan));
+        handle_.reset(plan);
+    }
+
+    brume_plan get() const { return handle_.get(); }
+
+    brume_plan_info info() const
+    {
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        context_.check(brume_plan_get_info(get(), &info));
+        return info;
+    }
+
+    std::vector<brume_plan_entry> entries() const
+    {
+        std::vector<brume_plan_entry> all(info().entry_count, brume_plan_entry BRUME_PLAN_ENTRY_INIT);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            context_.check(brume_plan_get_entry(get(), std::uint32_t(i), &all[i]));
+        return all;
+    }
+
+    void execute(const brume_frame &frame) { context_.check(brume_plan_execute(get(), &frame)); }
+    void execute(const brume_image &color, const brume_image &depth, const brume_image &output,
+                 const brume_camera *camera = nullptr, double frame_number = 0)
+    {
+        brume_frame frame = BRUME_FRAME_INIT;
+        frame.color = &color;
+        frame.depth = &depth;
+        frame.output = &output;
+        frame.camera = camera;
+        frame.frame = frame_number;
+        execute(frame);
+    }
+
+private:
+    Context context_;
+    std::unique_ptr<brume_plan_t, detail::Destroy> handle_;
+};
+
+inline brume_format format(std::int32_t width, std::int32_t height)
+{
+    brume_format format = BRUME_FORMAT_INIT;
+    format.width = width;
+    format.height = height;
+    return format;
+}
+
+// Packed floats. The library writes through the pointer only where the image is an output.
+inline brume_image image(const float *data, std::int32_t width, std::int32_t height, std::uint32_t channels)
+{
+    brume_image image = BRUME_IMAGE_INIT;
+    image.data = const_cast<float *>(data);
+    image.width = width;
+    image.height = height;
+    image.channels = channels;
+    return image;
+}
+
+// Packed halves, as their bits.
+inline brume_image half_image(const std::uint16_t *data, std::int32_t width, std::int32_t height, std::uint32_t channels)
+{
+    brume_image image = BRUME_IMAGE_INIT;
+    image.data = const_cast<std::uint16_t *>(data);
+    image.pixel = BRUME_PIXEL_F16;
+    image.width = width;
+    image.height = height;
+    image.channels = channels;
+    return image;
+}
+
+// A GL_TEXTURE_2D of the borrowed context; its first row is the bottom one.
+inline brume_image texture(std::uint32_t name, std::int32_t width, std::int32_t height, std::uint32_t channels)
+{
+    brume_image image = BRUME_IMAGE_INIT;
+    image.kind = BRUME_IMAGE_GL_TEXTURE;
+    image.origin = BRUME_ORIGIN_BOTTOM_LEFT;
+    image.gl_texture = name;
+    image.width = width;
+    image.height = height;
+    image.channels = channels;
+    return image;
+}
+
+}  // namespace brume
+
+#endif

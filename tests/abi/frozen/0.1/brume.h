@@ -1,0 +1,377 @@
+/* Brume: fog for finished images. The C ABI, and its manual.
+ *
+ * In: an HDR colour image and the distance to what each pixel shows. Out: the picture that a camera standing in the
+ * medium would take. C99; no other header of the SDK is needed to use the library.
+ *
+ *   brume_context   a backend (CPU threads, or OpenGL 4.5) and the effects found beside the library
+ *   brume_scene     what there is: medium, camera, effects and their parameters
+ *   brume_plan      what must be done for that scene and one image format; made once, printed, executed per frame
+ *
+ *   brume_context context; brume_scene scene; brume_plan plan;
+ *   brume_context_create(NULL, &context);
+ *   brume_scene_create_from_text(context, text, strlen(text), "fog.json", &scene);
+ *   brume_format format = BRUME_FORMAT_INIT; format.width = 1920; format.height = 1080;
+ *   brume_plan_create(scene, &format, &plan);
+ *   brume_frame frame = BRUME_FRAME_INIT; frame.color = &color; frame.depth = &depth; frame.output = &output;
+ *   brume_plan_execute(plan, &frame);
+ *
+ * Rules that hold everywhere
+ *   Status      Every call that can fail returns a brume_status. Codes unknown to you may come from a later library:
+ *               treat every nonzero value as failure. brume_message() copies out the text of the calling thread's last
+ *               failure in that context; nothing is sticky, and a failed call leaves its outputs and objects as they were.
+ *   Structs     begin with struct_size; initialise them with their BRUME_..._INIT. A field counts when it lies wholly
+ *               inside the struct_size given; the others take their defaults. Size 0 is refused, and so is a larger
+ *               struct whose bytes past the end known here are not all zero.
+ *   Lifetime    destroy(NULL) is legal and nothing. A scene or plan keeps its context alive. A plan copies the scene:
+ *               later changes to the scene do not reach it. Pointers in a struct are read during the call only.
+ *   Threads     A context with its scenes and plans is externally synchronised: one call at a time. Contexts are
+ *               independent of each other. Only brume_message() is per thread.
+ *   Units       metres (scene lengths are multiplied by metres_per_unit), linear radiance, radians in this header
+ *               (degrees in scene files), cross-sections times unit density in 1/m; densities are ratios.
+ *   Strings     UTF-8, zero-terminated; strings returned by pointer live as long as the object they were asked of.
+ *   Results     The same input on the same backend gives the same bits: any number of threads, host memory or texture,
+ *               in place or not.
+ */
+#ifndef BRUME_BRUME_H
+#define BRUME_BRUME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define BRUME_VERSION_MAJOR 0
+#define BRUME_VERSION_MINOR 1
+#define BRUME_VERSION_PATCH 0
+
+#if defined(_WIN32)
+#define BRUME_API __declspec(dllimport)
+#else
+#define BRUME_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- status ------------------------------------------------------------------------------------------------------ */
+
+typedef int32_t brume_status;
+#define BRUME_OK 0
+#define BRUME_ERROR_ARGUMENT 1      /* a NULL, a value out of range, a struct of size 0: the message names it */
+#define BRUME_ERROR_UNSUPPORTED 2   /* valid, but not on this backend, format or build */
+#define BRUME_ERROR_MEMORY 3
+#define BRUME_ERROR_NOT_FOUND 4     /* no effect or parameter of that name; the message names the nearest */
+#define BRUME_ERROR_SCENE 5         /* scene-file text: the message has line and column */
+#define BRUME_ERROR_CAMERA 6        /* something needs a camera that nobody gave: the message says what and why */
+#define BRUME_ERROR_FORMAT 7        /* an image does not fit the plan's format: make a new plan */
+#define BRUME_ERROR_GL 8            /* no context, a lost one, a refused shader: the message names the step */
+#define BRUME_ERROR_PLUGIN 9        /* an effect failed, threw, or answered nonsense */
+#define BRUME_ERROR_INTERNAL 10     /* a defect of the library */
+
+/* Name of a status ("BRUME_ERROR_SCENE"); of an unknown one "BRUME_ERROR_UNKNOWN". Never NULL. */
+BRUME_API const char *brume_status_name(brume_status status);
+
+/* Version of the library that was loaded, as 10000 * major + 100 * minor + patch. */
+BRUME_API uint32_t brume_version(void);
+
+/* ---- context ----------------------------------------------------------------------------------------------------- */
+
+typedef struct brume_context_t *brume_context;
+typedef struct brume_scene_t *brume_scene;
+typedef struct brume_plan_t *brume_plan;
+
+#define BRUME_BACKEND_AUTO 0u /* GL where a GPU is found, else CPU; software GL (llvmpipe) counts as no GPU */
+#define BRUME_BACKEND_CPU 1u
+#define BRUME_BACKEND_GL 2u   /* fails where GL cannot be had: there is no silent fallback */
+
+#define BRUME_GL_OWNED 0u    /* a headless EGL context of the library's own, on a thread of its own: the caller's
+                                thread and current context are never touched. Takes host memory only. */
+#define BRUME_GL_BORROWED 1u /* the context current on the calling thread, OpenGL 4.5 or later; it must be current,
+                                the same one, in every later call that names this context, destroy included. */
+
+#define BRUME_GL_STATE_PRESERVE 0u /* every piece of state listed in docs/gl-state.md is put back (default) */
+#define BRUME_GL_STATE_DEFAULTS 1u /* that state is left at GL's initial values: cheaper, for hosts that set their own */
+#define BRUME_GL_STATE_OWNED 2u    /* that state is left as it happens to be: for contexts used by nobody else */
+
+#define BRUME_LOG_ERROR 1u
+#define BRUME_LOG_WARNING 2u
+#define BRUME_LOG_INFO 3u
+#define BRUME_LOG_DEBUG 4u
+
+/* Called on the thread of the API call that logs. Must not call the library. `message` lives during the call. */
+typedef void (*brume_log_callback)(void *user, uint32_t level, const char *message);
+
+typedef struct brume_context_desc {
+  uint32_t struct_size;
+  uint32_t backend;             /* BRUME_BACKEND_...; default AUTO */
+  uint32_t gl_context;          /* BRUME_GL_OWNED (default) or BORROWED; read by the GL backend only */
+  uint32_t gl_state;            /* BRUME_GL_STATE_...; read for borrowed contexts only */
+  uint32_t threads;             /* CPU threads, 0 to 1024; 0 (default): all the process may use. Never changes a bit */
+  uint32_t log_level;           /* the chattiest level wanted; default BRUME_LOG_WARNING */
+  brume_log_callback log;       /* NULL (default): silent */
+  void *log_user;
+  const char *plugin_directory; /* a further absolute directory of effects; NULL (default): only lib/brume/ beside the
+                                   library. The working directory and the environment are never searched. */
+} brume_context_desc;
+#define BRUME_CONTEXT_DESC_INIT {(uint32_t)sizeof(brume_context_desc), 0u, 0u, 0u, 0u, BRUME_LOG_WARNING, NULL, NULL, NULL}
+
+/* desc NULL: the defaults. On failure *out is NULL and, there being no context to ask, brume_message(NULL, ...) has the
+   text. Loads the effects' plugins; a plugin that is refused does not fail the call (see brume_effect_info.refusal). */
+BRUME_API brume_status brume_context_create(const brume_context_desc *desc, brume_context *out);
+BRUME_API void brume_context_destroy(brume_context context);
+
+typedef struct brume_context_info {
+  uint32_t struct_size;
+  uint32_t backend;       /* the one in use: BRUME_BACKEND_CPU or _GL */
+  uint32_t threads;
+  uint32_t reserved;
+  uint64_t host_bytes;    /* image memory held now, pools included */
+  uint64_t device_bytes;
+  const char *device;     /* GL_RENDERER, or "CPU" */
+} brume_context_info;
+#define BRUME_CONTEXT_INFO_INIT {(uint32_t)sizeof(brume_context_info), 0u, 0u, 0u, 0u, 0u, NULL}
+BRUME_API brume_status brume_context_get_info(brume_context context, brume_context_info *info);
+
+/* Copies the message of the calling thread's last failed call on this context (context NULL: of any call without one),
+   "" if there was none, cut to capacity and always zero-terminated when capacity > 0. Returns the bytes that the whole
+   message needs, terminator included. */
+BRUME_API size_t brume_message(brume_context context, char *buffer, size_t capacity);
+
+/* ---- effects and their parameters -------------------------------------------------------------------------------- */
+
+typedef struct brume_effect_info {
+  uint32_t struct_size;
+  uint32_t parameter_count;
+  const char *name;
+  const char *help;    /* one line */
+  const char *file;    /* the plugin's path */
+  const char *refusal; /* NULL; or why this plugin was not taken (then name is the file's name and it has no parameters) */
+} brume_effect_info;
+#define BRUME_EFFECT_INFO_INIT {(uint32_t)sizeof(brume_effect_info), 0u, NULL, NULL, NULL, NULL}
+BRUME_API uint32_t brume_effect_count(brume_context context);
+BRUME_API brume_status brume_effect_get_info(brume_context context, uint32_t index, brume_effect_info *info);
+
+#define BRUME_PARAMETER_NUMBER 0u
+#define BRUME_PARAMETER_INTEGER 1u
+#define BRUME_PARAMETER_BOOLEAN 2u /* "true" or "false" as text, 1 or 0 as number */
+#define BRUME_PARAMETER_CHOICE 3u
+
+typedef struct brume_parameter_info {
+  uint32_t struct_size;
+  uint32_t type;         /* BRUME_PARAMETER_... */
+  double minimum;        /* inclusive; numbers and integers only */
+  double maximum;
+  double default_number; /* of a choice: the index of the default in `choices` */
+  const char *name;
+  const char *unit;      /* "" where there is none */
+  const char *help;      /* one line */
+  const char *choices;   /* "paper|reference"; "" unless type is CHOICE */
+} brume_parameter_info;
+#define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL}
+BRUME_API brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
+                                                brume_parameter_info *info);
+
+/* ---- scene ------------------------------------------------------------------------------------------------------- */
+
+/* An empty scene: no medium, no camera, no effects. */
+BRUME_API brume_status brume_scene_create(brume_context context, brume_scene *out);
+
+/* A scene from scene-file text (JSON, UTF-8; docs/sequences.md; `brume schema` prints its JSON Schema). `name` stands in
+   messages for the file, NULL: "scene". Unknown keys, wrong types and values out of range fail with line and column. */
+BRUME_API brume_status brume_scene_create_from_text(brume_context context, const char *text, size_t length,
+                                                    const char *name, brume_scene *out);
+BRUME_API void brume_scene_destroy(brume_scene scene);
+
+/* The JSON Schema of scene files, effects of this context included. Copied as brume_message does. */
+BRUME_API size_t brume_scene_schema(brume_context context, char *buffer, size_t capacity);
+
+#define BRUME_DENSITY_CONSTANT 0u    /* rho = value */
+#define BRUME_DENSITY_EXPONENTIAL 1u /* rho = value exp(-falloff <x - origin, direction>), Iser 2018 sec. 3.3 */
+
+typedef struct brume_density_term {
+  uint32_t struct_size;
+  uint32_t type;       /* BRUME_DENSITY_... */
+  double value;        /* ratio to unit density, >= 0; default 1 */
+  double falloff;      /* b [1/m], >= 0; exponential only; default 0 */
+  double direction[3]; /* n, of any length but 0; the density falls along it; default (0, 1, 0) */
+  double origin[3];    /* o, in scene units; default 0 */
+} brume_density_term;
+#define BRUME_DENSITY_TERM_INIT \
+  {(uint32_t)sizeof(brume_density_term), BRUME_DENSITY_CONSTANT, 1.0, 0.0, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}}
+
+#define BRUME_MAX_DENSITY_TERMS 16u /* exponential ones; constant terms are added up and do not count */
+
+typedef struct brume_medium {
+  uint32_t struct_size;
+  uint32_t term_count;  /* 0 (default): constant density 1 */
+  double scattering[3]; /* sigma_s at unit density [1/m], RGB, >= 0; default 0 */
+  double absorption[3]; /* sigma_a at unit density [1/m], RGB, >= 0; default 0 */
+  double emission[3];   /* radiance per metre that the medium itself emits at unit density, RGB, >= 0; default 0 */
+  double g;             /* mean cosine of the phase function, -1 to 1; default 0 (isotropic) */
+  double visibility;    /* [m]; > 0 replaces scattering by 3.912 / visibility - absorption (Koschmieder, 2 %); default 0 */
+  double droplet_diameter; /* [um] 5 to 50 replaces g by the mean cosine of Jendersie and d'Eon 2023's fit; default 0 */
+  const brume_density_term *terms; /* term_count of them, each of terms[0].struct_size; they add up */
+} brume_medium;
+#define BRUME_MEDIUM_INIT {(uint32_t)sizeof(brume_medium), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
+                           0.0, 0.0, 0.0, NULL}
+
+/* Replaces the medium; NULL takes it away. */
+BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_medium *medium);
+
+#define BRUME_CAMERA_FIELD_OF_VIEW 1u /* vertical_fov, pixel_aspect and center are given */
+#define BRUME_CAMERA_POSE 2u          /* camera_to_world is given */
+
+/* A pinhole camera; right-handed, looks down -z, +y up. */
+typedef struct brume_camera {
+  uint32_t struct_size;
+  uint32_t given;             /* BRUME_CAMERA_... flags; what is missing is an error only where something needs it */
+  double vertical_fov;        /* of the display window's height [rad], 0 < fov < pi */
+  double pixel_aspect;        /* width of a pixel over its height; default 1 */
+  double center[2];           /* principal point as a fraction of the display window, from its left and its top;
+                                 default (.5, .5); others describe off-axis projections */
+  double camera_to_world[16]; /* row-major, applied to column points; rigid (no scale), translation in scene units */
+} brume_camera;
+#define BRUME_CAMERA_INIT {(uint32_t)sizeof(brume_camera), 0u, 0.8726646259971648, 1.0, {0.5, 0.5}, \
+  {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}}
+
+BRUME_API brume_status brume_scene_set_camera(brume_scene scene, const brume_camera *camera);
+
+/* What of a camera the scene has: BRUME_CAMERA_... flags. */
+BRUME_API brume_status brume_scene_get_camera_given(brume_scene scene, uint32_t *given);
+
+/* Length of one scene unit [m], > 0; default 1. Distances, origins and camera translations are multiplied by it. */
+BRUME_API brume_status brume_scene_set_metres_per_unit(brume_scene scene, double metres);
+
+/* Luminance weights of the working colour space, >= 0 with a sum of 1; default Rec. 709 (.2126, .7152, .0722). */
+BRUME_API brume_status brume_scene_set_luminance_weights(brume_scene scene, const double weights[3]);
+
+/* Adds the effect with its defaults if it is not there, and sets one parameter; `parameter` NULL sets none. A scene to
+   which no effect was added gets every effect that its content needs. */
+BRUME_API brume_status brume_scene_set_text(brume_scene scene, const char *effect, const char *parameter, const char *value);
+BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *effect, const char *parameter, double value);
+
+/* ---- plan -------------------------------------------------------------------------------------------------------- */
+
+#define BRUME_DEPTH_PLANAR 0u     /* distance along the optical axis (what EXR's Z means); needs the field of view */
+#define BRUME_DEPTH_RAY 1u        /* distance along the pixel's ray */
+#define BRUME_DEPTH_INVERSE 2u    /* 1 / planar; <= 0 is far */
+#define BRUME_DEPTH_NORMALIZED 3u /* planar = depth_range[0] + z (depth_range[1] - depth_range[0]); z >= 1 is far */
+#define BRUME_DEPTH_DEVICE 4u     /* a depth buffer of [0, 1]: 1/planar = mix(1/depth_range[0], 1/depth_range[1], z);
+                                     reversed when depth_range[0] is the larger; either may be infinite. The cleared
+                                     value of the far end is far. */
+
+#define BRUME_SKY_FOG 0u   /* far pixels are at infinity, seen through all of the medium (default) */
+#define BRUME_SKY_KEEP 1u  /* far pixels are returned without fog in front; glows of others still reach them */
+#define BRUME_SKY_CLAMP 2u /* far pixels are at sky_distance */
+
+#define BRUME_OUTPUT_TRANSMITTANCE 1u /* exp(-tau), RGB */
+#define BRUME_OUTPUT_OPTICAL_DEPTH 2u /* tau, RGB; sky in a medium without end gives up to 1e30 times sigma */
+#define BRUME_OUTPUT_SCATTERED 4u     /* what was added to the attenuated image: scattered and emitted radiance, RGB */
+#define BRUME_OUTPUT_BLUR_RADIUS 8u   /* deviation of the blur of this pixel's light [px], one channel */
+
+typedef struct brume_format {
+  uint32_t struct_size;
+  int32_t width;              /* of the images, 1 to 65536 (and within the device's largest texture) */
+  int32_t height;
+  int32_t display_x;          /* the display window (what the camera's field of view spans) in pixels, relative to the */
+  int32_t display_y;          /* image's top left pixel; overscan and crops differ from the image. */
+  int32_t display_width;      /* 0 (default): the display window is the image */
+  int32_t display_height;
+  uint32_t depth_kind;        /* BRUME_DEPTH_...; default PLANAR */
+  double depth_range[2];      /* for NORMALIZED and DEVICE; in scene units; default (0, 1) */
+  double far_distance;        /* planar or ray distances >= this are far, in scene units; default 1e9. NaN, infinite and
+                                 (but for DEVICE, and NORMALIZED at 0) values <= 0 always are. */
+  uint32_t sky;               /* BRUME_SKY_...; default FOG */
+  uint32_t outputs;           /* extra outputs wanted: BRUME_OUTPUT_... flags; default 0 */
+  double sky_distance;        /* for BRUME_SKY_CLAMP, in scene units, along the ray */
+} brume_format;
+#define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0}
+
+/* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
+   nothing more once warm. */
+BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
+BRUME_API void brume_plan_destroy(brume_plan plan);
+
+typedef struct brume_plan_info {
+  uint32_t struct_size;
+  uint32_t entry_count;
+  uint32_t does_nothing;     /* 1: every pass was dropped; execute copies, bit for bit */
+  uint32_t camera_needs;     /* BRUME_CAMERA_... flags that executing needs */
+  const char *camera_reason; /* what needs it and why; "" */
+  uint64_t image_bytes;      /* memory of the plan's own images */
+  double predicted_ms;       /* per frame, from the passes' bytes and operations at nominal rates of the backend: rough */
+} brume_plan_info;
+#define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0}
+BRUME_API brume_status brume_plan_get_info(brume_plan plan, brume_plan_info *info);
+
+typedef struct brume_plan_entry {
+  uint32_t struct_size;
+  uint32_t runs;        /* 1: a pass; 0: something that was dropped */
+  const char *effect;
+  const char *name;
+  const char *reason;   /* why it runs, or why not */
+  uint64_t bytes;       /* the least it must read and write per frame */
+  uint64_t operations;  /* arithmetic per frame, about */
+  double predicted_ms;
+  double measured_ms;   /* of the last execute; < 0 before one. On GL: GPU time; asking waits for that frame to end. */
+} brume_plan_entry;
+#define BRUME_PLAN_ENTRY_INIT {(uint32_t)sizeof(brume_plan_entry), 0u, NULL, NULL, NULL, 0u, 0u, 0.0, 0.0}
+BRUME_API brume_status brume_plan_get_entry(brume_plan plan, uint32_t index, brume_plan_entry *entry);
+
+/* ---- images and execution ---------------------------------------------------------------------------------------- */
+
+#define BRUME_IMAGE_HOST 0u       /* data, row_stride, pixel_stride */
+#define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only */
+
+#define BRUME_PIXEL_F32 0u
+#define BRUME_PIXEL_F16 1u
+
+#define BRUME_ORIGIN_TOP_LEFT 0u
+#define BRUME_ORIGIN_BOTTOM_LEFT 1u /* the first row is the bottom one, as GL has it; all images of a frame agree */
+
+typedef struct brume_image {
+  uint32_t struct_size;
+  uint32_t kind;         /* BRUME_IMAGE_...; default HOST */
+  uint32_t pixel;        /* BRUME_PIXEL_...; host memory only (a texture knows its own); default F32 */
+  uint32_t channels;     /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; depth: 1; default 4 */
+  int32_t width;
+  int32_t height;
+  uint32_t origin;       /* BRUME_ORIGIN_...; default TOP_LEFT */
+  uint32_t gl_texture;   /* a complete GL_TEXTURE_2D, level 0 is used. Colour: any float or normalised format with RGB;
+                            depth: R16F, R32F or a depth format; output: RGBA16F or RGBA32F */
+  void *data;            /* of the first row's first pixel; read only for inputs */
+  int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
+  int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
+} brume_image;
+#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0}
+
+typedef struct brume_extra_output {
+  uint32_t struct_size;
+  uint32_t output;          /* one BRUME_OUTPUT_... flag, which the plan's format asked for */
+  const brume_image *image; /* 3 or 4 channels (alpha is set to 1), 1 for BLUR_RADIUS; textures as for `output` */
+} brume_extra_output;
+#define BRUME_EXTRA_OUTPUT_INIT {(uint32_t)sizeof(brume_extra_output), 0u, NULL}
+
+/* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
+   unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
+   clamped to +-65504. `output` may be the very image `color` is (in place), with the same layout; partial overlap is
+   not allowed.
+   Host memory: returns when the output is complete. GL textures: the work is enqueued in the current context, nothing
+   waits; the caller orders its own reads after it as after any GL write (a memory barrier for all uses is issued). */
+typedef struct brume_frame {
+  uint32_t struct_size;
+  uint32_t extra_count;
+  const brume_image *color;
+  const brume_image *depth;
+  const brume_image *output;
+  const brume_extra_output *extra; /* extra_count of them, each of extra[0].struct_size */
+  const brume_camera *camera;      /* what it gives goes before the scene's; NULL (default): the scene's */
+  double frame;                    /* frame number, for the scene's keyed values; default 0 */
+} brume_frame;
+#define BRUME_FRAME_INIT {(uint32_t)sizeof(brume_frame), 0u, NULL, NULL, NULL, NULL, NULL, 0.0}
+
+BRUME_API brume_status brume_plan_execute(brume_plan plan, const brume_frame *frame);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

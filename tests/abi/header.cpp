@@ -1,0 +1,2 @@
+#include <brume/brume.h>
+#include <brume/brume_plugin.h>

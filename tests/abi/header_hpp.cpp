@@ -1,0 +1,1 @@
+#include <brume/brume.hpp>

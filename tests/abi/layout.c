@@ -1,0 +1,167 @@
+/* Sizes and offsets of every struct of the C ABI on x86-64. A change here breaks programs that were built already:
+ * append fields instead, and extend this file. */
+#include <brume/brume.h>
+
+#if defined(__x86_64__) && defined(__LP64__)
+
+#define NAME2(a, b) a##b
+#define NAME(a, b) NAME2(a, b)
+#define EXPECT(condition) typedef char NAME(expect_line_, __LINE__)[(condition) ? 1 : -1]
+#define SIZE(type, bytes) EXPECT(sizeof(type) == (bytes))
+#define FIELD(type, field, offset, bytes) \
+  EXPECT(offsetof(type, field) == (offset) && sizeof(((type *)0)->field) == (bytes))
+
+SIZE(brume_status, 4);
+EXPECT((brume_status)-1 < 0);
+
+SIZE(brume_context_desc, 48);
+FIELD(brume_context_desc, struct_size, 0, 4);
+FIELD(brume_context_desc, backend, 4, 4);
+FIELD(brume_context_desc, gl_context, 8, 4);
+FIELD(brume_context_desc, gl_state, 12, 4);
+FIELD(brume_context_desc, threads, 16, 4);
+FIELD(brume_context_desc, log_level, 20, 4);
+FIELD(brume_context_desc, log, 24, 8);
+FIELD(brume_context_desc, log_user, 32, 8);
+FIELD(brume_context_desc, plugin_directory, 40, 8);
+
+SIZE(brume_context_info, 40);
+FIELD(brume_context_info, struct_size, 0, 4);
+FIELD(brume_context_info, backend, 4, 4);
+FIELD(brume_context_info, threads, 8, 4);
+FIELD(brume_context_info, reserved, 12, 4);
+FIELD(brume_context_info, host_bytes, 16, 8);
+FIELD(brume_context_info, device_bytes, 24, 8);
+FIELD(brume_context_info, device, 32, 8);
+
+SIZE(brume_effect_info, 40);
+FIELD(brume_effect_info, struct_size, 0, 4);
+FIELD(brume_effect_info, parameter_count, 4, 4);
+FIELD(brume_effect_info, name, 8, 8);
+FIELD(brume_effect_info, help, 16, 8);
+FIELD(brume_effect_info, file, 24, 8);
+FIELD(brume_effect_info, refusal, 32, 8);
+
+SIZE(brume_parameter_info, 64);
+FIELD(brume_parameter_info, struct_size, 0, 4);
+FIELD(brume_parameter_info, type, 4, 4);
+FIELD(brume_parameter_info, minimum, 8, 8);
+FIELD(brume_parameter_info, maximum, 16, 8);
+FIELD(brume_parameter_info, default_number, 24, 8);
+FIELD(brume_parameter_info, name, 32, 8);
+FIELD(brume_parameter_info, unit, 40, 8);
+FIELD(brume_parameter_info, help, 48, 8);
+FIELD(brume_parameter_info, choices, 56, 8);
+
+SIZE(brume_density_term, 72);
+FIELD(brume_density_term, struct_size, 0, 4);
+FIELD(brume_density_term, type, 4, 4);
+FIELD(brume_density_term, value, 8, 8);
+FIELD(brume_density_term, falloff, 16, 8);
+FIELD(brume_density_term, direction, 24, 24);
+FIELD(brume_density_term, origin, 48, 24);
+
+SIZE(brume_medium, 112);
+FIELD(brume_medium, struct_size, 0, 4);
+FIELD(brume_medium, term_count, 4, 4);
+FIELD(brume_medium, scattering, 8, 24);
+FIELD(brume_medium, absorption, 32, 24);
+FIELD(brume_medium, emission, 56, 24);
+FIELD(brume_medium, g, 80, 8);
+FIELD(brume_medium, visibility, 88, 8);
+FIELD(brume_medium, droplet_diameter, 96, 8);
+FIELD(brume_medium, terms, 104, 8);
+
+SIZE(brume_camera, 168);
+FIELD(brume_camera, struct_size, 0, 4);
+FIELD(brume_camera, given, 4, 4);
+FIELD(brume_camera, vertical_fov, 8, 8);
+FIELD(brume_camera, pixel_aspect, 16, 8);
+FIELD(brume_camera, center, 24, 16);
+FIELD(brume_camera, camera_to_world, 40, 128);
+
+SIZE(brume_format, 72);
+FIELD(brume_format, struct_size, 0, 4);
+FIELD(brume_format, width, 4, 4);
+FIELD(brume_format, height, 8, 4);
+FIELD(brume_format, display_x, 12, 4);
+FIELD(brume_format, display_y, 16, 4);
+FIELD(brume_format, display_width, 20, 4);
+FIELD(brume_format, display_height, 24, 4);
+FIELD(brume_format, depth_kind, 28, 4);
+FIELD(brume_format, depth_range, 32, 16);
+FIELD(brume_format, far_distance, 48, 8);
+FIELD(brume_format, sky, 56, 4);
+FIELD(brume_format, outputs, 60, 4);
+FIELD(brume_format, sky_distance, 64, 8);
+
+SIZE(brume_plan_info, 40);
+FIELD(brume_plan_info, struct_size, 0, 4);
+FIELD(brume_plan_info, entry_count, 4, 4);
+FIELD(brume_plan_info, does_nothing, 8, 4);
+FIELD(brume_plan_info, camera_needs, 12, 4);
+FIELD(brume_plan_info, camera_reason, 16, 8);
+FIELD(brume_plan_info, image_bytes, 24, 8);
+FIELD(brume_plan_info, predicted_ms, 32, 8);
+
+SIZE(brume_plan_entry, 64);
+FIELD(brume_plan_entry, struct_size, 0, 4);
+FIELD(brume_plan_entry, runs, 4, 4);
+FIELD(brume_plan_entry, effect, 8, 8);
+FIELD(brume_plan_entry, name, 16, 8);
+FIELD(brume_plan_entry, reason, 24, 8);
+FIELD(brume_plan_entry, bytes, 32, 8);
+FIELD(brume_plan_entry, operations, 40, 8);
+FIELD(brume_plan_entry, predicted_ms, 48, 8);
+FIELD(brume_plan_entry, measured_ms, 56, 8);
+
+SIZE(brume_image, 56);
+FIELD(brume_image, struct_size, 0, 4);
+FIELD(brume_image, kind, 4, 4);
+FIELD(brume_image, pixel, 8, 4);
+FIELD(brume_image, channels, 12, 4);
+FIELD(brume_image, width, 16, 4);
+FIELD(brume_image, height, 20, 4);
+FIELD(brume_image, origin, 24, 4);
+FIELD(brume_image, gl_texture, 28, 4);
+FIELD(brume_image, data, 32, 8);
+FIELD(brume_image, pixel_stride, 40, 8);
+FIELD(brume_image, row_stride, 48, 8);
+
+SIZE(brume_extra_output, 16);
+FIELD(brume_extra_output, struct_size, 0, 4);
+FIELD(brume_extra_output, output, 4, 4);
+FIELD(brume_extra_output, image, 8, 8);
+
+SIZE(brume_frame, 56);
+FIELD(brume_frame, struct_size, 0, 4);
+FIELD(brume_frame, extra_count, 4, 4);
+FIELD(brume_frame, color, 8, 8);
+FIELD(brume_frame, depth, 16, 8);
+FIELD(brume_frame, output, 24, 8);
+FIELD(brume_frame, extra, 32, 8);
+FIELD(brume_frame, camera, 40, 8);
+FIELD(brume_frame, frame, 48, 8);
+
+#endif
+
+/* Every INIT macro is a valid initialiser of its struct in C. */
+void brume_test_initialisers(void);
+void brume_test_initialisers(void)
+{
+  brume_context_desc context_desc = BRUME_CONTEXT_DESC_INIT;
+  brume_context_info context_info = BRUME_CONTEXT_INFO_INIT;
+  brume_effect_info effect_info = BRUME_EFFECT_INFO_INIT;
+  brume_parameter_info parameter_info = BRUME_PARAMETER_INFO_INIT;
+  brume_density_term density_term = BRUME_DENSITY_TERM_INIT;
+  brume_medium medium = BRUME_MEDIUM_INIT;
+  brume_camera camera = BRUME_CAMERA_INIT;
+  brume_format format = BRUME_FORMAT_INIT;
+  brume_plan_info plan_info = BRUME_PLAN_INFO_INIT;
+  brume_plan_entry plan_entry = BRUME_PLAN_ENTRY_INIT;
+  brume_image image = BRUME_IMAGE_INIT;
+  brume_extra_output extra_output = BRUME_EXTRA_OUTPUT_INIT;
+  brume_frame frame = BRUME_FRAME_INIT;
+  (void)context_desc, (void)context_info, (void)effect_info, (void)parameter_info, (void)density_term, (void)medium;
+  (void)camera, (void)format, (void)plan_info, (void)plan_entry, (void)image, (void)extra_output, (void)frame;
+}

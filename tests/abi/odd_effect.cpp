@@ -1,0 +1,70 @@
+// Effects that misbehave when they end, and one that counts overlapping calls: one library per case, named by TEST_CASE.
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+
+#include <brume/brume_plugin.h>
+
+namespace {
+
+constexpr std::string_view test_case = TEST_CASE;
+std::atomic<int> inside = 0;
+
+struct Alone {
+    bool alone = ++inside == 1;
+    Alone() { std::this_thread::sleep_for(std::chrono::microseconds(200)); }
+    ~Alone() { --inside; }
+};
+
+brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *, void **state)
+{
+    Alone now;
+    *state = &inside;
+    if (test_case == "throws_destroying_and_planning")
+        throw std::runtime_error("thrown in plan");
+    const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0};
+    if (!now.alone)
+        return services->fail(host, BRUME_ERROR_PLUGIN, "called twice at once");
+    return services->add_entry(host, &entry);
+}
+
+brume_status execute(const brume_services *services, brume_host host, void *, const brume_plugin_frame *)
+{
+    Alone now;
+    return now.alone ? BRUME_OK : services->fail(host, BRUME_ERROR_PLUGIN, "called twice at once");
+}
+
+void destroy(void *)
+{
+    if (test_case == "throws_destroying" || test_case == "throws_destroying_and_planning")
+        throw std::runtime_error("thrown in destroy");
+    if (test_case == "throws_int_destroying")
+        throw 42;
+    Alone now;
+}
+
+const brume_effect effect{
+    .struct_size = sizeof(brume_effect),
+    .abi = BRUME_PLUGIN_ABI,
+    .name = TEST_CASE,
+    .help = "Ends badly",
+    .order = 200,
+    .thread_safety = BRUME_THREADS_UNSAFE,
+    .wanted = BRUME_WANTED_NEVER,
+    .outputs = 0,
+    .reserved = 0,
+    .parameter_count = 0,
+    .parameters = nullptr,
+    .plan = plan,
+    .execute = execute,
+    .destroy = destroy,
+};
+
+}  // namespace
+
+BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t)
+{
+    return &effect;
+}

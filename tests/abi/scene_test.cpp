@@ -1,0 +1,155 @@
+// Scenes through the C ABI: what setters take and refuse. What scene files may hold is tested in tests/unit.
+#include "support.h"
+
+using namespace client;
+
+namespace {
+
+class SceneCalls : public testing::Test {
+protected:
+    Context context = make_context();
+    Scene scene = make_scene(context, R"({"brume": 1})");
+
+    void refused(brume_status status, const std::string &named)
+    {
+        expect_status(context.get(), status, BRUME_ERROR_ARGUMENT, named);
+    }
+    uint32_t camera_given()
+    {
+        uint32_t given = 99;
+        EXPECT_EQ(brume_scene_get_camera_given(scene.get(), &given), BRUME_OK);
+        return given;
+    }
+};
+
+}  // namespace
+
+TEST_F(SceneCalls, TextFailsWithLineAndColumn)
+{
+    const std::string text = "{\n  \"brume\": 1,\n  \"mediun\": {}\n}";
+    auto broken = reinterpret_cast<brume_scene>(1);
+    brume_status status = brume_scene_create_from_text(context.get(), text.data(), text.size(), "night.json", &broken);
+    expect_status(context.get(), status, BRUME_ERROR_SCENE, "night.json:3:");
+    EXPECT_NE(message(context.get()).find("medium"), std::string::npos);
+    EXPECT_EQ(broken, nullptr);
+    status = brume_scene_create_from_text(context.get(), text.data(), text.size(), nullptr, &broken);
+    expect_status(context.get(), status, BRUME_ERROR_SCENE, "scene:3:");
+}
+
+TEST_F(SceneCalls, TextNeedsNoTerminator)
+{
+    const std::string text = std::string(R"({"brume": 1})") + "and more";
+    brume_scene made = nullptr;
+    ASSERT_EQ(brume_scene_create_from_text(context.get(), text.data(), 12, nullptr, &made), BRUME_OK);
+    brume_scene_destroy(made);
+}
+
+TEST_F(SceneCalls, MediumRefusesNonsense)
+{
+    struct Case {
+        std::function<void(brume_medium &, brume_density_term &)> change;
+        const char *named;
+    };
+    const Case cases[] = {
+        {[](auto &m, auto &) { m.scattering[1] = -1; }, "scattering[1]"},
+        {[](auto &m, auto &) { m.scattering[2] = NAN; }, "scattering[2]"},
+        {[](auto &m, auto &) { m.absorption[0] = INFINITY; }, "absorption[0]"},
+        {[](auto &m, auto &) { m.emission[2] = -1e-9; }, "emission[2]"},
+        {[](auto &m, auto &) { m.g = 1.01; }, "medium.g"},
+        {[](auto &m, auto &) { m.g = NAN; }, "medium.g"},
+        {[](auto &m, auto &) { m.visibility = -5; }, "visibility"},
+        {[](auto &m, auto &) { m.droplet_diameter = 4; }, "droplet_diameter"},
+        {[](auto &m, auto &) { m.terms = nullptr; }, "terms"},
+        {[](auto &m, auto &) { m.term_count = 1000000; }, "term_count"},
+        {[](auto &, auto &t) { t.type = 2; }, "terms[0].type"},
+        {[](auto &, auto &t) { t.value = -1; }, "terms[0].value"},
+        {[](auto &, auto &t) { t.falloff = NAN; }, "terms[0].falloff"},
+        {[](auto &, auto &t) { t.direction[1] = 0; }, "terms[0].direction"},
+        {[](auto &, auto &t) { t.origin[1] = NAN; }, "terms[0].origin"},
+    };
+    for (const Case &c : cases) {
+        brume_medium medium = BRUME_MEDIUM_INIT;
+        brume_density_term term = BRUME_DENSITY_TERM_INIT;
+        term.type = BRUME_DENSITY_EXPONENTIAL;
+        medium.term_count = 1;
+        medium.terms = &term;
+        c.change(medium, term);
+        refused(brume_scene_set_medium(scene.get(), &medium), c.named);
+    }
+}
+
+TEST_F(SceneCalls, MediumTakesSixteenExponentialTerms)
+{
+    std::vector<brume_density_term> terms(40, brume_density_term BRUME_DENSITY_TERM_INIT);
+    for (size_t i = 0; i < BRUME_MAX_DENSITY_TERMS; ++i)
+        terms[i].type = BRUME_DENSITY_EXPONENTIAL;
+    brume_medium medium = BRUME_MEDIUM_INIT;
+    medium.terms = terms.data();
+    medium.term_count = uint32_t(terms.size());
+    EXPECT_EQ(brume_scene_set_medium(scene.get(), &medium), BRUME_OK) << message(context.get());
+    terms[20].type = BRUME_DENSITY_EXPONENTIAL;
+    refused(brume_scene_set_medium(scene.get(), &medium), "terms");
+}
+
+TEST_F(SceneCalls, CameraRefusesNonsense)
+{
+    struct Case {
+        std::function<void(brume_camera &)> change;
+        const char *named;
+    };
+    const Case cases[] = {
+        {[](auto &c) { c.vertical_fov = 0; }, "vertical_fov"},
+        {[](auto &c) { c.vertical_fov = 3.2; }, "vertical_fov"},
+        {[](auto &c) { c.vertical_fov = NAN; }, "vertical_fov"},
+        {[](auto &c) { c.pixel_aspect = 0; }, "pixel_aspect"},
+        {[](auto &c) { c.center[1] = INFINITY; }, "center"},
+        {[](auto &c) { c.camera_to_world[3] = NAN; }, "camera_to_world"},
+        {[](auto &c) { c.camera_to_world[0] = 2; }, "camera_to_world"},
+        {[](auto &c) { c.camera_to_world[1] = 0.5; }, "camera_to_world"},
+        {[](auto &c) { c.camera_to_world[0] = -1; }, "camera_to_world"},
+        {[](auto &c) { c.camera_to_world[12] = 1; }, "camera_to_world"},
+        {[](auto &c) { c.given = 4; }, "given"},
+    };
+    for (const Case &c : cases) {
+        brume_camera camera = BRUME_CAMERA_INIT;
+        camera.given = BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE;
+        c.change(camera);
+        refused(brume_scene_set_camera(scene.get(), &camera), c.named);
+    }
+    EXPECT_EQ(camera_given(), 0u);
+    // What is not given is not looked at.
+    brume_camera camera = BRUME_CAMERA_INIT;
+    camera.given = BRUME_CAMERA_FIELD_OF_VIEW;
+    camera.camera_to_world[0] = NAN;
+    EXPECT_EQ(brume_scene_set_camera(scene.get(), &camera), BRUME_OK);
+    EXPECT_EQ(camera_given(), BRUME_CAMERA_FIELD_OF_VIEW);
+    camera.given = 0;
+    EXPECT_EQ(brume_scene_set_camera(scene.get(), &camera), BRUME_OK);
+    EXPECT_EQ(camera_given(), 0u);
+}
+
+TEST_F(SceneCalls, UnitsAndWeights)
+{
+    for (double metres : {0.0, -1.0, double(NAN), double(INFINITY)})
+        refused(brume_scene_set_metres_per_unit(scene.get(), metres), "metres");
+    EXPECT_EQ(brume_scene_set_metres_per_unit(scene.get(), 0.01), BRUME_OK);
+    const double heavy[] = {0.5, 0.5, 0.5}, negative[] = {-0.1, 1, 0.1}, nan[] = {NAN, 0.5, 0.5}, good[] = {0.3, 0.6, 0.1};
+    refused(brume_scene_set_luminance_weights(scene.get(), heavy), "weights");
+    refused(brume_scene_set_luminance_weights(scene.get(), negative), "weights");
+    refused(brume_scene_set_luminance_weights(scene.get(), nan), "weights");
+    EXPECT_EQ(brume_scene_set_luminance_weights(scene.get(), good), BRUME_OK);
+}
+
+TEST_F(SceneCalls, SchemaIsCopiedAsMessagesAre)
+{
+    const size_t size = brume_scene_schema(context.get(), nullptr, 0);
+    ASSERT_GT(size, 100u);
+    std::string schema(size, '#');
+    EXPECT_EQ(brume_scene_schema(context.get(), schema.data(), size), size);
+    EXPECT_EQ(schema.back(), '\0');
+    EXPECT_EQ(schema.front(), '{');
+    EXPECT_NE(schema.find("multiscatter"), std::string::npos);
+    char text[3] = "##";
+    EXPECT_EQ(brume_scene_schema(context.get(), text, 2), size);
+    EXPECT_STREQ(text, "{");
+}
