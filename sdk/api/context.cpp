@@ -7,13 +7,18 @@ using namespace brume::api;
 namespace {
 
 struct Message {
-    const Context *context;
+    uint64_t context;
     std::string text;
 };
 
 // Of the contexts this thread failed in last; short, so that threads which meet many contexts do not grow.
 thread_local std::vector<Message> messages;
 constexpr size_t message_limit = 16;
+
+uint64_t id_of(const Context *context)
+{
+    return context ? context->id : 0;
+}
 
 }  // namespace
 
@@ -22,21 +27,21 @@ void api::set_message(const Context *context, const std::string &message)
     forget_messages(context);
     if (messages.size() == message_limit)
         messages.erase(messages.begin());
-    messages.push_back({context, message});
+    messages.push_back({id_of(context), message});
 }
 
 const std::string &api::message_of(const Context *context)
 {
     static const std::string none;
     for (const Message &message : messages)
-        if (message.context == context)
+        if (message.context == id_of(context))
             return message.text;
     return none;
 }
 
 void api::forget_messages(const Context *context)
 {
-    std::erase_if(messages, [&](const Message &message) { return message.context == context; });
+    std::erase_if(messages, [&](const Message &message) { return message.context == id_of(context); });
 }
 
 extern "C" {

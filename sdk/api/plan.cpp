@@ -67,14 +67,17 @@ brume_image read_image(const brume_image *given, const char *name)
         check(image.gl_texture != 0, "gl_texture", "the name of a texture");
     } else {
         check(image.data, "data", "memory");
-        int64_t sample = image.pixel == BRUME_PIXEL_F16 ? 2 : 4;
-        check(image.pixel_stride == 0 || std::abs(image.pixel_stride) >= sample * image.channels, "pixel_stride",
-              "0, or at least the size of a pixel");
-        check(std::abs(image.pixel_stride) <= 65536 && std::abs(image.row_stride) <= (int64_t(1) << 40), "row_stride",
-              "strides up to 64 KiB a pixel and 1 TiB a row");
-        // Interleaved rows (a pixel stride wider than a row) are as good as packed ones; only overlap is refused.
-        check(image.row_stride == 0 || image.height <= 1 || std::abs(image.row_stride) >= sample * image.channels,
-              "row_stride", "0, or at least the size of a pixel");
+        const int64_t size = (image.pixel == BRUME_PIXEL_F16 ? 2 : 4) * int64_t(image.channels);
+        auto within = [](int64_t value, int64_t limit) { return value >= -limit && value <= limit; };
+        check(within(image.pixel_stride, 65536) && (image.pixel_stride == 0 || std::abs(image.pixel_stride) >= size),
+              "pixel_stride", "0, or at least the size of a pixel and at most 64 KiB");
+        check(within(image.row_stride, int64_t(1) << 40), "row_stride", "at most 1 TiB");
+        // Rows may interleave with the pixels of others (a transposed image); only overlap is refused.
+        const int64_t pixel_step = image.pixel_stride ? std::abs(image.pixel_stride) : size;
+        const int64_t row_step = std::abs(image.row_stride);
+        check(row_step == 0 || image.width < 1 || image.height <= 1 || row_step >= pixel_step * (image.width - 1) + size ||
+                  (row_step >= size && pixel_step >= row_step * (image.height - 1) + size),
+              "row_stride", "0, or rows that do not overlap");
     }
     return image;
 }

@@ -1,5 +1,6 @@
 #include "core/context.h"
 
+#include <atomic>
 #include <filesystem>
 
 #include <dlfcn.h>
@@ -29,6 +30,12 @@ std::unique_ptr<Backend> create_backend(const brume_context_desc &desc, const Lo
 }
 
 }  // namespace
+
+uint64_t Context::new_id()
+{
+    static std::atomic<uint64_t> last = 0;
+    return ++last;
+}
 
 std::shared_ptr<Context> create_context(const brume_context_desc &desc)
 {

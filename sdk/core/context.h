@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -9,10 +10,14 @@
 namespace brume {
 
 struct Context {
+    const uint64_t id = new_id();  // of no other context, unlike its address
     Log log;
     std::unique_ptr<Backend> backend;
     EffectRegistry effects;
     std::string device;  // what the backend says of itself, kept for callers of the C API
+
+private:
+    static uint64_t new_id();
 };
 
 // Makes the backend asked for and loads the effects; throws Error.

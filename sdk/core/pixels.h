@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -59,10 +60,11 @@ inline float load_sample(const unsigned char *p, uint32_t pixel)
     return value;
 }
 
+// Finite values stay finite: halves saturate at their largest.
 inline void store_sample(unsigned char *p, uint32_t pixel, float value)
 {
     if (pixel == BRUME_PIXEL_F16) {
-        uint16_t half = float_to_half(value);
+        uint16_t half = float_to_half(std::isfinite(value) ? std::clamp(value, -65504.0f, 65504.0f) : value);
         std::memcpy(p, &half, 2);
     } else {
         std::memcpy(p, &value, 4);

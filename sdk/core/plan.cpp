@@ -141,9 +141,7 @@ void brume_host_t::plan_effects()
         entries_.push_back({false, "brume", "lights",
                             std::to_string(scene_.light_count) + " lights: no effect of this scene reads them", 0, 0, 0});
 
-    uint32_t filled = 0;
     for (auto &planned : effects_) {
-        filled |= planned.effect->table->outputs;
         for (const Parameter &parameter : planned.effect->parameters)
             planned.parameters.push_back(parameter.default_value);
         for (const EffectSettings &settings : scene_.effects)
@@ -151,10 +149,6 @@ void brume_host_t::plan_effects()
                 for (auto &[name, value] : settings.parameters)
                     planned.parameters[find_parameter(*planned.effect, name)] = value;
     }
-    if (uint32_t missing = format_.outputs & ~filled)
-        throw Error(BRUME_ERROR_UNSUPPORTED,
-                    "format.outputs: no effect of this scene fills outputs " + std::to_string(missing));
-
     brume_plugin_scene scene{};
     scene.struct_size = sizeof scene;
     View view = view_of(scene_, nullptr, 0, format_);
@@ -162,8 +156,14 @@ void brume_host_t::plan_effects()
     scene.has_medium = scene_.medium ? 1 : 0;
     evaluate_medium(scene_, 0, view.camera_to_world, scene.medium);
     scene.output_limit = FLT_MAX;
-    for (auto &planned : effects_)
+    uint32_t filled = 0;
+    for (auto &planned : effects_) {
         plan_effect(planned, scene);
+        filled |= planned.runs ? planned.effect->table->outputs : 0;
+    }
+    if (uint32_t missing = format_.outputs & ~filled)
+        throw Error(BRUME_ERROR_UNSUPPORTED, "format.outputs: nothing that runs fills outputs " + std::to_string(missing) +
+                                                 (entries_.empty() ? "" : " (" + entries_.back().reason + ")"));
 
     auto running = std::count_if(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
     for (int i = 0; i < std::min<int>(int(running) - 1, 2); ++i) {
@@ -256,8 +256,12 @@ void brume_host_t::check_frame(const brume_frame &frame) const
         seen |= extra.output;
         bool scalar = extra.output == BRUME_OUTPUT_BLUR_RADIUS;
         check(extra.image, name.c_str(), true, scalar ? 1 : 3, scalar ? 1 : 4);
-        if (same_memory(*extra.image, *frame.color) || same_memory(*extra.image, *frame.output))
-            throw Error(BRUME_ERROR_ARGUMENT, name + ": shares memory with color or output");
+        bool shared = same_memory(*extra.image, *frame.color) || same_memory(*extra.image, *frame.output) ||
+                      (frame.depth && same_memory(*extra.image, *frame.depth));
+        for (uint32_t k = 0; k < i; ++k)
+            shared = shared || same_memory(*extra.image, *frame.extra[k].image);
+        if (shared)
+            throw Error(BRUME_ERROR_ARGUMENT, name + ": shares memory with another image of the frame");
     }
     if (same_memory(*frame.color, *frame.output) && frame.color->kind == BRUME_IMAGE_HOST &&
         !same_layout(*frame.color, *frame.output))

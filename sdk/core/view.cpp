@@ -113,6 +113,13 @@ void check_camera(const brume_camera &camera)
                     refuse("camera_to_world: product of columns " + std::to_string(i) + " and " + std::to_string(j), dot,
                            "a rigid transform (orthonormal columns)");
             }
+        double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+                             m[2] * (m[4] * m[9] - m[5] * m[8]);
+        if (determinant < 0)
+            refuse("camera_to_world: determinant", determinant, "1 (a rigid transform, not a mirroring one)");
+        for (int i = 12; i < 16; ++i)
+            if (m[i] != (i == 15))
+                refuse("camera_to_world[" + std::to_string(i) + "]", m[i], "a last row of 0 0 0 1");
     }
     if (camera.given & ~(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE))
         refuse("given", camera.given, "BRUME_CAMERA_... flags");
