@@ -43,7 +43,8 @@ struct Sources {
     vec4 separated;  // L_ssc, W
 };
 
-// L_sc and, of bright pixels in thin fog, L_ssc (sec. 4.3, radiance separation).
+// L_sc and, of bright pixels in thin fog, L_ssc (sec. 4.3, radiance separation). W stops where the coarsest level does:
+// the sky's, which has no bound, would drown that of everything near the horizon once it is blurred.
 PURE Sources scattered_sources(Medium medium, Filter f, Pixel pixel, vec3 color)
 {
     vec3 l = finite_or_zero(color);
@@ -52,7 +53,8 @@ PURE Sources scattered_sources(Medium medium, Filter f, Pixel pixel, vec3 color)
         m = soft_step(f.bright, f.bright_width, luminance(medium.luminance, l)) *
             (R(1.0) - soft_step(f.dense - f.dense_width, f.dense_width, pixel.density));
     vec3 sc = pixel.share * l;
-    return Sources(vec4(sc * (R(1.0) - m), pixel.spread), vec4(sc * m, pixel.spread));
+    float w = min(pixel.spread, f.scale * float(1 << f.top));
+    return Sources(vec4(sc * (R(1.0) - m), w), vec4(sc * m, w));
 }
 
 // ---- sec. 4.2-4.3: one texel of level `level` from the finer level, whose first row in its image is finer_row

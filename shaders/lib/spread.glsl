@@ -13,7 +13,8 @@ PURE float spread_angle(Medium medium, float p, float distance)
     float s = min(p, R(1e15));
     float x = dot(medium.luminance, medium.scattering) * (R(1.0) - medium.asymmetry) * s;
     float a = dot(medium.luminance, medium.absorption) * s;
-    return p / distance * sqrt(max(x, R(0.0)) / (R(8.0) + R(4.0) / R(3.0) * a * x));
+    float mean_density = p / max(distance, R(1e-18) * p);
+    return mean_density * sqrt(max(x, R(0.0)) / (R(8.0) + R(4.0) / R(3.0) * a * x));
 }
 
 // The same in pixels, W_px = f_px W / D, which makes the look independent of resolution and field of view.
