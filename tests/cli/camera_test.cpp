@@ -91,6 +91,26 @@ TEST(CameraMetadata, UnderstandsCamerasThatLookAlongMinusZ) {
   }
 }
 
+TEST(CameraMetadata, UnderstandsOpenGLsClipSpaceWhereItStandsForNdc) {
+  Imf::Header header = header_of(1600, 800);
+  const double y = std::tan(20 * kDegree), x = 2 * y;
+  M44d clip(0.0);
+  clip[0][0] = 1 / x;
+  clip[1][1] = 1 / y;
+  clip[2][2] = clip[2][3] = -1;
+  clip[3][2] = -0.2;
+  const M44d w2c = M44d().setTranslation(Imath::V3d(-1, -2, -3));
+  Imf::addWorldToCamera(header, M44f(w2c));
+  Imf::addWorldToNDC(header, M44f(w2c * clip));
+  const Camera camera = camera_from_metadata(header);
+  ASSERT_TRUE(camera.projection && camera.pose);
+  EXPECT_NEAR(camera.projection->vertical_fov(), 40 * kDegree, 1e-5);
+  EXPECT_NEAR(camera.projection->center()[0], 0.5, 1e-5);
+  EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-5);
+  EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-5);
+  EXPECT_NEAR((*camera.pose)[10], 1, 1e-6);
+}
+
 TEST(CameraMetadata, VRaysMatrixIsCameraToWorld) {
   Imf::Header header = header_of(960, 540);
   M44f c2w;

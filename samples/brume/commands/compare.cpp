@@ -67,7 +67,7 @@ void write_exr(const std::string& path, const Picture& where, const std::vector<
     buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, rgb.data() + c, window, 3 * sizeof(float)));
   }
   PendingFile pending(path);
-  OutputStream stream(pending.path().string());
+  OutputStream stream(pending.path().string(), path);
   {
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(buffer);

@@ -9,7 +9,8 @@
 
 namespace brume::tool {
 
-OutputStream::OutputStream(const std::string& path) : Imf::OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb")) {
+OutputStream::OutputStream(const std::string& path, const std::string& final_name)
+    : Imf::OStream(final_name.c_str()), file_(std::fopen(path.c_str(), "wb")) {
   if (!file_) fail();
 }
 

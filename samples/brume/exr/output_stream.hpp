@@ -12,7 +12,8 @@ namespace brume::tool {
 /// This stream remembers any failure until close().
 class OutputStream : public Imf::OStream {
  public:
-  explicit OutputStream(const std::string& path);
+  /// Errors name `final_name`: `path` is a temporary one.
+  OutputStream(const std::string& path, const std::string& final_name);
 
   void write(const char bytes[], int count) override;
   std::uint64_t tellp() override;

@@ -153,7 +153,7 @@ WriteReport write_frame(const Frame& frame, const std::vector<AddedLayer>& layer
   }
 
   PendingFile pending(output);
-  OutputStream stream(pending.path().string());
+  OutputStream stream(pending.path().string(), output.string());
   try {
     Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()));
     for (const PartInfo& part : frame.file.parts())

@@ -18,8 +18,11 @@ std::string clock_text(double seconds) {
 Progress::Progress(std::size_t total, bool quiet)
     : total_(total), quiet_(quiet), terminal_(::isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
 
-Progress::~Progress() {
+Progress::~Progress() { end(); }
+
+void Progress::end() {
   if (drawn_) std::fputc('\n', stderr);
+  drawn_ = false;
 }
 
 void Progress::done(const std::string& frame, double seconds) {

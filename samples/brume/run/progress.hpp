@@ -15,6 +15,8 @@ class Progress {
   void done(const std::string& frame, double seconds);
   /// Shown even when quiet.
   void note(const std::string& text);
+  /// Leaves the bar as it is and goes on below it.
+  void end();
 
  private:
   void draw();

@@ -75,6 +75,7 @@ class Sequence {
     const auto start = std::chrono::steady_clock::now();
     pipeline();
     run_.wall_seconds = ms_since(start) / 1000;
+    progress_.end();
     return finish();
   }
 
