@@ -1,0 +1,93 @@
+/* load_effect PREFIX DIRECTORY: runs the sample effect `grade` from DIRECTORY with the library installed in PREFIX, on the
+ * CPU and, where there is a context, on GL. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <brume/brume.h>
+
+static void check(brume_context context, brume_status status)
+{
+    char message[512];
+    if (status == BRUME_OK)
+        return;
+    brume_message(context, message, sizeof message);
+    fprintf(stderr, "%s: %s\n", brume_status_name(status), message);
+    exit(1);
+}
+
+static void expect(int condition, const char *what)
+{
+    if (condition)
+        return;
+    fprintf(stderr, "not so: %s\n", what);
+    exit(1);
+}
+
+/* Where the effect of that name comes from. */
+static int comes_from(brume_context context, const char *name, const char *directory)
+{
+    uint32_t i;
+    for (i = 0; i < brume_effect_count(context); ++i) {
+        brume_effect_info info = BRUME_EFFECT_INFO_INIT;
+        check(context, brume_effect_get_info(context, i, &info));
+        if (strcmp(info.name, name) == 0)
+            return strncmp(info.file, directory, strlen(directory)) == 0;
+    }
+    return 0;
+}
+
+static int run(uint32_t backend, const char *prefix, const char *directory)
+{
+    const char *text = "{\"brume\": 1, \"effects\": {\"grade\": {\"exposure\": 1, \"saturation\": 0}}}";
+    float color[4] = {0.1f, 0.2f, 0.4f, 0.5f}, depth = 1, output[4];
+    const float grey = 0.2126f * 0.1f + 0.7152f * 0.2f + 0.0722f * 0.4f;
+    brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
+    brume_format format = BRUME_FORMAT_INIT;
+    brume_image color_image = BRUME_IMAGE_INIT, depth_image, output_image;
+    brume_frame frame = BRUME_FRAME_INIT;
+    brume_context context;
+    brume_scene scene;
+    brume_plan plan;
+    int i;
+    desc.backend = backend;
+    desc.plugin_directory = directory;
+    if (brume_context_create(&desc, &context) != BRUME_OK) {
+        char message[512];
+        brume_message(NULL, message, sizeof message);
+        printf("backend %u: %s\n", (unsigned)backend, message);
+        return 0;
+    }
+    expect(comes_from(context, "multiscatter", prefix), "multiscatter comes from beside the library");
+    expect(comes_from(context, "grade", directory), "grade comes from plugin_directory");
+    check(context, brume_scene_create_from_text(context, text, strlen(text), NULL, &scene));
+    format.width = format.height = 1;
+    format.depth_kind = BRUME_DEPTH_RAY;
+    check(context, brume_plan_create(scene, &format, &plan));
+    color_image.width = color_image.height = 1;
+    depth_image = output_image = color_image;
+    depth_image.channels = 1;
+    color_image.data = color;
+    depth_image.data = &depth;
+    output_image.data = output;
+    frame.color = &color_image;
+    frame.depth = &depth_image;
+    frame.output = &output_image;
+    check(context, brume_plan_execute(plan, &frame));
+    for (i = 0; i < 3; ++i)
+        expect(fabsf(output[i] - 2 * grey) < 1e-6f, "exposure 1 and saturation 0 give twice the luminance");
+    expect(output[3] == color[3], "alpha is unchanged");
+    brume_plan_destroy(plan);
+    brume_scene_destroy(scene);
+    brume_context_destroy(context);
+    return 1;
+}
+
+int main(int argc, char **argv)
+{
+    expect(argc == 3, "two arguments");
+    expect(run(BRUME_BACKEND_CPU, argv[1], argv[2]), "the CPU backend is always there");
+    run(BRUME_BACKEND_GL, argv[1], argv[2]);
+    return 0;
+}
