@@ -53,12 +53,12 @@ bool any(const float (&v)[3])
     return v[0] > 0 || v[1] > 0 || v[2] > 0;
 }
 
-// Widest W_px at any distance, where the density is constant: f rho sqrt(kappa rho D / (8 + 4/3 a kappa (rho D)^2)) is
-// largest at (rho D)^2 = 6 / (a kappa). Infinite without absorption, or where the density varies.
+// Widest W_px at any distance: f sqrt(kappa P / (8 + 4/3 a kappa P^2)) is largest at P^2 = 6 / (a kappa). Infinite without
+// absorption.
 double Planner::largest_blur() const
 {
     const auto &m = request_.scene->medium;
-    if (request_.animated || m.term_count > 0)
+    if (request_.animated)
         return INFINITY;
     auto mean = [&](const float (&v)[3]) {
         return double(v[0]) * m.luminance[0] + double(v[1]) * m.luminance[1] + double(v[2]) * m.luminance[2];
@@ -70,7 +70,7 @@ double Planner::largest_blur() const
         return INFINITY;
     double focal = std::sqrt(double(request_.scene->camera.focal[0]) * request_.scene->camera.focal[1]);
     double p = std::sqrt(6 / (a * kappa));
-    return focal * m.constant * std::sqrt(kappa * p / (8 + 4.0 / 3.0 * a * kappa * p * p));
+    return focal * std::sqrt(kappa * p / (8 + 4.0 / 3.0 * a * kappa * p * p));
 }
 
 brume_status Planner::need_camera(bool scatters)

@@ -34,7 +34,7 @@ PURE Pixel pixel_in_medium(Medium medium, Camera camera, vec2 pixel, float raw_d
 {
     Ray ray = pixel_ray(camera, pixel, raw_depth);
     float p = ray.keep ? R(0.0) : density_integral(medium, ray.direction, ray.distance);
-    return Pixel(p, spread_pixels(medium, camera, p, ray.distance), transmittance(medium, p), scattered_share(medium, p),
+    return Pixel(p, spread_pixels(medium, camera, p), transmittance(medium, p), scattered_share(medium, p),
                  emitted(medium, p));
 }
 

@@ -309,6 +309,37 @@ TEST_P(Backends, ThePictureDoesNotDriftWhereSizesAreOdd)
     }
 }
 
+// The same medium, written with half the cross-sections at twice the density ratio, and as an exponential that hardly falls.
+TEST_P(Backends, DensityTimesCrossSectionIsAllThatCounts)
+{
+    Picture color = random_color(90, 50, 7), depth = constant_depth(90, 50, 60);
+    for (int x = 0; x < 90; ++x)
+        for (int y = 0; y < 12; ++y)
+            depth.at(x, y)[0] = 400;
+    Options blur{{}, BRUME_OUTPUT_BLUR_RADIUS, 0};
+    auto one = run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7"), color, depth, blur);
+    auto two = run(context(), scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
+                   color, depth, blur);
+    auto limit = run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7,\"density\":[{\"type\":\"exponential\",\"falloff\":1e-9}]"),
+                     color, depth, blur);
+    EXPECT_LT(compare(two.output, one.output, 1e-2).error, 1e-5);
+    EXPECT_LT(compare(two.blur_radius, one.blur_radius, 1e-2).error, 1e-5);
+    EXPECT_LT(compare(limit.output, one.output, 1e-2).error, 1e-3);
+}
+
+// Fog that thins out upwards lets some of the sky through and blurs it: its deviation is finite and not zero.
+TEST_P(Backends, SkyBehindFiniteFogIsBlurred)
+{
+    Picture color(60, 60, 4, 0.2f), depth = constant_depth(60, 60, INFINITY);
+    auto r = run(context(), scene("\"scattering\":0.02,\"g\":0.8,\"density\":[{\"type\":\"exponential\",\"falloff\":0.05,\"direction\":[0,1,0]}]"),
+                 color, depth, {{}, BRUME_OUTPUT_BLUR_RADIUS | BRUME_OUTPUT_OPTICAL_DEPTH, 0});
+    float w = r.blur_radius.at(30, 5)[0], tau = r.optical_depth.at(30, 5)[0];
+    EXPECT_GT(tau, 0.5);
+    EXPECT_LT(tau, 5);
+    EXPECT_GT(w, 1);
+    EXPECT_LT(w, 60);
+}
+
 TEST_P(Backends, EmissionSaturatesAtItsSourceFunction)
 {
     Picture color(4, 4, 4, 0);

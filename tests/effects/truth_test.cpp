@@ -1,0 +1,99 @@
+// Against path-traced scenes, where they are present: kernel `paper` is held to what it reaches, so that a change shows.
+#include <filesystem>
+#include <fstream>
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "fog.h"
+
+using namespace fog;
+
+namespace {
+
+Picture read(const std::string &file, const std::vector<std::string> &channels)
+{
+    auto in = OIIO::ImageInput::open(file);
+    if (!in)
+        throw std::runtime_error(file + ": " + OIIO::geterror());
+    const auto &spec = in->spec();
+    std::vector<float> all(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
+    in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, all.data());
+    Picture p(spec.width, spec.height, int(channels.size()), 1);
+    for (size_t c = 0; c < channels.size(); ++c)
+        for (int n = 0; n < spec.nchannels; ++n)
+            if (spec.channelnames[size_t(n)] == channels[c])
+                for (size_t i = 0; i < all.size() / size_t(spec.nchannels); ++i)
+                    p.data[i * channels.size() + c] = all[i * size_t(spec.nchannels) + size_t(n)];
+    return p;
+}
+
+// The metric of the tool's `compare`: 2 x 2 box averages, a 3 x 3 box filter, then relMSE.
+double rel_mse(const Picture &a, const Picture &b)
+{
+    auto smooth = [](const Picture &p) {
+        Picture half(p.width / 2, p.height / 2, 3), out = half;
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    half.at(x, y)[c] = 0.25f * (p.at(2 * x, 2 * y)[c] + p.at(2 * x + 1, 2 * y)[c] + p.at(2 * x, 2 * y + 1)[c] +
+                                                p.at(2 * x + 1, 2 * y + 1)[c]);
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    float sum = 0;
+                    int n = 0;
+                    for (int j = std::max(0, y - 1); j <= std::min(half.height - 1, y + 1); ++j)
+                        for (int i = std::max(0, x - 1); i <= std::min(half.width - 1, x + 1); ++i, ++n)
+                            sum += half.at(i, j)[c];
+                    out.at(x, y)[c] = sum / float(n);
+                }
+        return out;
+    };
+    Picture sa = smooth(a), sb = smooth(b);
+    double mean = 0, error = 0;
+    for (float v : sb.data)
+        mean += v / double(sb.data.size());
+    for (size_t i = 0; i < sa.data.size(); ++i) {
+        double d = double(sa.data[i]) - sb.data[i];
+        error += d * d / (double(sb.data[i]) * sb.data[i] + 0.0025 * mean * mean) / double(sa.data.size());
+    }
+    return error;
+}
+
+}  // namespace
+
+TEST(Truth, PaperKernelOnPathTracedScenes)
+{
+    const std::filesystem::path folder = std::filesystem::path(BRUME_SHARED_DIR) / "truth";
+    if (std::string(BRUME_SHARED_DIR).empty() || !std::filesystem::exists(folder)) {
+        printf("no path-traced scenes here: nothing compared\n");
+        return;
+    }
+    double product = 1, unfogged = 1;
+    int pairs = 0;
+    for (const char *name : {"lamps", "leak"})
+        for (const char *medium : {"h1", "h2", "e1"}) {
+            std::string file = folder / (std::string(name) + "_" + medium);
+            auto description = nlohmann::json::parse(std::ifstream(file + ".json"));
+            nlohmann::json scene;
+            scene["brume"] = 1;
+            scene["camera"] = {{"horizontal_fov", description["camera"]["horizontal_fov_degrees"]},
+                               {"camera_to_world", description["camera"]["camera_to_world"]}};
+            scene["medium"] = description["medium"];
+            scene["medium"].erase("orders");
+            std::string clear = folder / (std::string(name) + "_clear.exr");
+            Picture color = read(clear, {"R", "G", "B", "A"}), depth = read(clear, {"Z"}), truth = read(file + ".exr", {"R", "G", "B"});
+            Picture color_rgb = read(clear, {"R", "G", "B"});
+            double fogged = rel_mse(run(cpu(), scene.dump(), color, depth).output, truth), none = rel_mse(color_rgb, truth);
+            printf("%s %s: relMSE %.3f, without fog %.3f\n", name, medium, fogged, none);
+            product *= fogged;
+            unfogged *= none;
+            ++pairs;
+        }
+    double mean = std::pow(product, 1.0 / pairs), mean_unfogged = std::pow(unfogged, 1.0 / pairs);
+    printf("geometric mean: kernel paper %.3f, no fog at all %.3f\n", mean, mean_unfogged);
+    EXPECT_LT(mean, 0.26) << "what a prototype of the published filter reached";
+    EXPECT_LT(mean, mean_unfogged);
+}
