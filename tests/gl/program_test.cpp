@@ -244,6 +244,19 @@ TEST_F(Programs, ImagesOfImpossibleSizes)
     });
 }
 
+TEST_F(Programs, DeviceMemoryThatRunsOut)
+{
+    if (backend->device().find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << "only llvmpipe refuses 4 GiB at once";
+    backend->invoke([&] {
+        backend->create_image(256, 256, 4, BRUME_PIXEL_F32);  // idle, to be given up first
+        const Failure failure = failure_of([&] { backend->create_image(16384, 16384, 4, BRUME_PIXEL_F32); });
+        EXPECT_EQ(failure.status, BRUME_ERROR_MEMORY);
+        EXPECT_NE(failure.message.find("16384 x 16384 RGBA32F"), std::string::npos) << failure.message;
+        EXPECT_EQ(failure_of([&] { backend->create_image(256, 256, 4, BRUME_PIXEL_F32); }).status, BRUME_OK);
+    });
+}
+
 TEST_F(Programs, Timers)
 {
     backend->invoke([&] {
