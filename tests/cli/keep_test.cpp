@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include <ImfChannelList.h>
 #include <ImfMatrixAttribute.h>
@@ -202,6 +203,27 @@ TEST_F(Keep, NothingIsLeftWhereTheFileCannotBeWritten) {
   fs::resize_file(in, fs::file_size(in) - 40);
   EXPECT_THROW(doubled({}, {"", "rgb", "", ""}), FrameError);
   for (const auto& entry : fs::directory_iterator(folder_.path())) EXPECT_EQ(entry.path(), in) << "left behind";
+}
+
+TEST_F(Keep, MutatedFilesWorkOrThrow) {
+  TestPart picture{rgbz()}, deep{{{"Z", Imf::FLOAT, constant(3)}}}, tiled{{{"other", Imf::UINT, constant(7)}}};
+  picture.name = "rgb", deep.name = "deep", tiled.name = "tiles";
+  deep.deep = tiled.tiled = true;
+  write_exr(in, {picture, deep, tiled});
+  const std::string whole = read_text(in);
+  std::minstd_rand random(7);
+  for (int round = 0; round < 600; ++round) {
+    std::string bytes = whole;
+    // Headers come first; most changes should fall there.
+    const std::size_t range = round % 3 ? 1500 : bytes.size();
+    for (int i = 0; i <= round % 4; ++i) bytes[random() % std::min(range, bytes.size())] = char(random());
+    write_text(in, bytes);
+    try {
+      doubled();
+    } catch (const FrameError&) {
+    } catch (const RequestError&) {
+    }
+  }
 }
 
 }  // namespace

@@ -27,10 +27,11 @@ struct Window {
 };
 
 struct PartHeader {
-  std::string name, type;
+  std::string type;
   std::optional<Window> data, display;
   std::optional<std::uint8_t> compression;
   std::optional<std::array<std::uint32_t, 2>> tile;
+  std::optional<std::int32_t> chunk_count;
   std::uint64_t channels = 0;
   std::uint64_t bytes_per_pixel = 0;
 };
@@ -63,17 +64,28 @@ class Walker {
     flags_ = version;
 
     const bool multi_part = version & kMultiPartFlag;
-    std::uint64_t chunk_table_bytes = 0;
+    std::vector<PartHeader> parts;
+    std::uint64_t chunks = 0;
     for (int index = 0;; ++index) {
       part_ = index;
       if (multi_part && index > 0 && peek_zero()) break;
       if (index >= limits_.parts) fail(fmt::format("more than {} parts", limits_.parts));
-      chunk_table_bytes += 8 * check(read_part());
+      parts.push_back(read_part());
+      PartHeader& part = parts.back();
+      const std::uint64_t least = check(part);
+      if (!part.chunk_count) part.chunk_count = std::int32_t(least);
+      if (*part.chunk_count < 0) fail(fmt::format("chunkCount is {} (expected at least 0)", *part.chunk_count));
+      chunks += std::max<std::uint64_t>(least, std::uint64_t(*part.chunk_count));
       if (!multi_part) break;
     }
     // Each chunk has an entry of eight bytes at the head of the file, so the file's own size bounds what it may claim.
-    if (position() + chunk_table_bytes > size_)
-      fail(fmt::format("claims {} chunks of pixels, but the file has only {} bytes", chunk_table_bytes / 8, size_));
+    std::uint64_t table = position();
+    if (table + 8 * chunks > size_) fail(fmt::format("claims {} chunks of pixels, but the file has only {} bytes", chunks, size_));
+    for (part_ = 0; part_ < int(parts.size()); ++part_) {
+      const PartHeader& part = parts[std::size_t(part_)];
+      if (is_deep(part)) check_deep_chunks(table, *part.chunk_count, is_tiled(part), multi_part);
+      table += 8 * std::uint64_t(*part.chunk_count);
+    }
   }
 
  private:
@@ -127,7 +139,7 @@ class Walker {
 
   static bool interesting(const std::string& name) {
     return name == "dataWindow" || name == "displayWindow" || name == "channels" || name == "compression" ||
-           name == "tiles" || name == "type" || name == "name";
+           name == "tiles" || name == "type" || name == "chunkCount";
   }
 
   template <class T>
@@ -145,7 +157,7 @@ class Walker {
     else if (name == "compression") part.compression = value_of<std::uint8_t>(name, bytes);
     else if (name == "tiles") part.tile = value_of<std::array<std::uint32_t, 2>>(name, bytes);
     else if (name == "type") part.type.assign(bytes.begin(), bytes.end());
-    else if (name == "name") part.name.assign(bytes.begin(), bytes.end());
+    else if (name == "chunkCount") part.chunk_count = value_of<std::int32_t>(name, bytes);
     else take_channels(part, bytes);
   }
 
@@ -168,6 +180,30 @@ class Walker {
     }
   }
 
+  bool is_deep(const PartHeader& part) const { return part.type.empty() ? (flags_ & kDeepFlag) != 0 : part.type.starts_with("deep"); }
+  bool is_tiled(const PartHeader& part) const {
+    return part.type.empty() ? (flags_ & kTiledFlag) != 0 : part.type == "tiledimage" || part.type == "deeptile";
+  }
+
+  /// The library allocates a deep chunk by the size that it claims, even to copy it undecoded.
+  void check_deep_chunks(std::uint64_t table, std::int32_t count, bool tiled, bool multi_part) {
+    const std::uint64_t sizes_at = (multi_part ? 4u : 0u) + (tiled ? 16u : 4u);
+    for (std::int32_t i = 0; i < count; ++i) {
+      const auto offset = read_at<std::uint64_t>(table + 8 * std::uint64_t(i));
+      if (offset > size_ || offset + sizes_at + 24 > size_)
+        fail(fmt::format("chunk {} is at byte {} (file of {} bytes)", i, offset, size_));
+      const auto counts = read_at<std::uint64_t>(offset + sizes_at), samples = read_at<std::uint64_t>(offset + sizes_at + 8);
+      if (counts > size_ || samples > size_ || offset + counts + samples > size_)
+        fail(fmt::format("chunk {} claims {} and {} bytes, but the file has only {}", i, counts, samples, size_));
+    }
+  }
+
+  template <class T>
+  T read_at(std::uint64_t position) {
+    in_.seekg(std::streamoff(position));
+    return read<T>("chunks");
+  }
+
   /// Refuses absurd geometry; returns the number of chunks that the part must have.
   std::uint64_t check(const PartHeader& part) const {
     if (!part.data) fail("no 'dataWindow'");
@@ -181,14 +217,13 @@ class Walker {
       fail(fmt::format("compression {} (expected 0 to 9)", part.compression ? int(*part.compression) : -1));
 
     const std::uint64_t pixels = std::uint64_t(part.data->width()) * std::uint64_t(part.data->height());
-    const bool deep = part.type.empty() ? (flags_ & kDeepFlag) != 0 : part.type.starts_with("deep");
+    const bool deep = is_deep(part);
     if (!deep && pixels > limits_.part_bytes / part.bytes_per_pixel)
       fail(fmt::format("{} x {} pixels of {} channels need {} MiB (limit {} MiB; run takes --mem)", part.data->width(),
                        part.data->height(), part.channels, pixels * part.bytes_per_pixel >> 20,
                        limits_.part_bytes >> 20));
 
-    const bool tiled = part.type.empty() ? (flags_ & kTiledFlag) != 0 : part.type.ends_with("tile") || part.type == "tiledimage";
-    if (!tiled) {
+    if (!is_tiled(part)) {
       const auto lines = deep ? 1 : scanlines_per_chunk(*part.compression);
       return std::uint64_t((part.data->height() + lines - 1) / lines);
     }

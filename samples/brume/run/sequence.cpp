@@ -32,6 +32,7 @@ struct Job {
   std::vector<AddedLayer> layers;
   LuminanceWeights weights{};
   FrameStats stats;
+  bool discarded = false;  ///< the run was interrupted before its fog
 };
 using JobPtr = std::shared_ptr<Job>;
 
@@ -135,7 +136,7 @@ class Sequence {
   }
 
   JobPtr stage(JobPtr job, void (Sequence::*work)(Job&)) {
-    if (job->stats.outcome == Outcome::kFailed) return job;
+    if (job->stats.outcome == Outcome::kFailed || job->discarded) return job;
     try {
       (this->*work)(*job);
     } catch (const std::bad_alloc&) {
@@ -177,7 +178,11 @@ class Sequence {
   }
 
   void fog(Job& job) {
-    if (interrupted()) throw FrameError(fmt::format("{}: interrupted", job.stats.files.input.string()));
+    if (interrupted()) {
+      job.frame.reset();
+      job.discarded = true;
+      return;
+    }
     const auto start = std::chrono::steady_clock::now();
     // Without isolation this thread could pick up another frame's reading while it waits for the library.
     oneapi::tbb::this_task_arena::isolate([&] { job.stats.fog = fogger_.fog(*job.frame, job.stats.files.frame, job.weights, job.layers); });
@@ -203,6 +208,7 @@ class Sequence {
   }
 
   void report(Job& job) {
+    if (job.discarded) return;
     FrameStats& stats = run_.frames[job.index] = std::move(job.stats);
     if (stats.outcome == Outcome::kFailed) {
       progress_.note("failed: " + stats.error);
