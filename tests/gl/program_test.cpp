@@ -87,6 +87,12 @@ TEST_F(Programs, RefusesWhatCannotWork)
     EXPECT_EQ(compile_failure("").status, BRUME_ERROR_GL);  // no main(): links fail
 }
 
+TEST_F(Programs, VeryLongLines)
+{
+    EXPECT_EQ(evaluate(storing("2.0", "// " + std::string(1 << 20, 'x'))), 2.0f);
+    EXPECT_EQ(compile_failure("nonsense" + std::string(1 << 20, 'x')).status, BRUME_ERROR_GL);
+}
+
 TEST_F(Programs, SameTextsAreCompiledOnce)
 {
     backend->invoke([&] {
