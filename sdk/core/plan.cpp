@@ -30,12 +30,6 @@ Rates nominal_rates(const Backend &backend)
     return software ? Rates{2e6, 4e5} : Rates{3e8, 1e9};
 }
 
-float output_limit(const brume_image *output)
-{
-    // Textures are asked for their own type by the backend; the smaller limit is safe for both.
-    return output && output->kind == BRUME_IMAGE_HOST && output->pixel == BRUME_PIXEL_F32 ? FLT_MAX : 65504.0f;
-}
-
 bool same_memory(const brume_image &a, const brume_image &b)
 {
     if (a.kind != b.kind)
@@ -286,9 +280,9 @@ void brume_host_t::execute(const brume_frame &frame)
     fill_camera(scene_, view, format_, frame.color->origin, scene.camera);
     scene.has_medium = scene_.medium ? 1 : 0;
     evaluate_medium(scene_, frame.frame, view.camera_to_world, scene.medium);
-    scene.output_limit = output_limit(frame.output);
     context_->backend->invoke([&] {
         check_frame(frame);
+        scene.output_limit = context_->backend->pixel(*frame.output) == BRUME_PIXEL_F16 ? 65504.0f : FLT_MAX;
         timer_->begin();
         if (does_nothing())
             copy_frame(frame);

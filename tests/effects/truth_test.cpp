@@ -2,7 +2,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include <OpenImageIO/imageio.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -14,18 +16,16 @@ namespace {
 
 Picture read(const std::string &file, const std::vector<std::string> &channels)
 {
-    auto in = OIIO::ImageInput::open(file);
-    if (!in)
-        throw std::runtime_error(file + ": " + OIIO::geterror());
-    const auto &spec = in->spec();
-    std::vector<float> all(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
-    in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, all.data());
-    Picture p(spec.width, spec.height, int(channels.size()), 1);
+    Imf::InputFile in(file.c_str());
+    Imath::Box2i window = in.header().dataWindow();
+    Picture p(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, int(channels.size()));
+    Imf::FrameBuffer buffer;
+    size_t pixel = sizeof(float) * channels.size();
     for (size_t c = 0; c < channels.size(); ++c)
-        for (int n = 0; n < spec.nchannels; ++n)
-            if (spec.channelnames[size_t(n)] == channels[c])
-                for (size_t i = 0; i < all.size() / size_t(spec.nchannels); ++i)
-                    p.data[i * channels.size() + c] = all[i * size_t(spec.nchannels) + size_t(n)];
+        buffer.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, p.data.data() + c, window, pixel, pixel * size_t(p.width), 1, 1,
+                                                    channels[c] == "A" ? 1.0 : 0.0));
+    in.setFrameBuffer(buffer);
+    in.readPixels(window.min.y, window.max.y);
     return p;
 }
 
