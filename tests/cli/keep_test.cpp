@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -74,6 +75,14 @@ TEST_F(Keep, TypesLayersAndMetadata) {
   doubled();
   for (const char* c : {"R", "G", "B"}) expect_doubled(c);
   for (const char* c : {"A", "Z", "id", "crypto00.R"}) expect_same(c);
+  const auto quarter_of = [](const fs::path& path) {
+    ExrFile file(path);
+    const ColorChoice color = resolve_color(file, {});
+    const Frame frame = read_frame(std::move(file), color, nullptr);
+    const auto at = std::find_if(frame.planes.begin(), frame.planes.end(), [](const Plane& p) { return p.channel.name == "quarter"; });
+    return std::string(at->bytes.get(), kWidth / 2 * kHeight / 2 * 2);
+  };
+  EXPECT_TRUE(quarter_of(in) == quarter_of(out));
   const Imf::Header h = read_header(out);
   EXPECT_EQ(h.compression(), Imf::PIZ_COMPRESSION);
   EXPECT_EQ(h.lineOrder(), Imf::DECREASING_Y);

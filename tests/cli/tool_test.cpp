@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <ImfMatrixAttribute.h>
+#include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
@@ -52,6 +52,27 @@ TEST_F(Tool, FogAttenuatesAndLayersSayHow) {
     EXPECT_NEAR(after[i], before[i] * std::exp(-0.1 * z[i]), 1e-3 * before[i]);
   }
   EXPECT_EQ(read_plane(in_, "B"), read_plane(out_, "B"));
+}
+
+TEST_F(Tool, OnlyTheViewAskedForIsFogged) {
+  write_text(fog_, R"({"brume":1,"medium":{"scattering":[0,0,0],"absorption":[0.1,0.1,0.1]}})");
+  TestPart part{rgbz()};
+  for (auto& c : rgb("left.")) part.channels.push_back(c);
+  part.channels.push_back({"left.Z", Imf::HALF, constant(4)});
+  part.edit = [](Imf::Header& h) { Imf::addMultiView(h, {"right", "left"}); };
+  write_exr(in_, {part});
+  ASSERT_EQ(run(fog_, {"--depth-kind", "ray", "--vfov", "50", "--view", "left", "--layers", "transmittance"}).status, 0);
+  EXPECT_EQ(read_plane(in_, "R"), read_plane(out_, "R"));
+  EXPECT_NEAR(read_plane(out_, "left.G")[9], read_plane(in_, "left.G")[9] * std::exp(-0.4), 1e-3);
+  EXPECT_NEAR(read_plane(out_, "brume.transmittance.left.G")[9], std::exp(-0.4), 1e-3);
+}
+
+TEST_F(Tool, GreyPicturesStayGrey) {
+  write_text(fog_, R"({"brume":1,"medium":{"scattering":[0,0,0],"absorption":[0.1,0.1,0.1]}})");
+  write_exr(in_, {{{{"Y", Imf::FLOAT, [](int x, int) { return x; }}, {"Z", Imf::FLOAT, constant(5)}}}});
+  ASSERT_EQ(run(fog_, {"--depth-kind", "ray", "--vfov", "50"}).status, 0);
+  EXPECT_EQ(read_header(out_).channels().findChannel("R"), nullptr);
+  EXPECT_NEAR(read_plane(out_, "Y")[20], 20 * std::exp(-0.5), 1e-4);
 }
 
 TEST_F(Tool, AMissingCameraIsAnErrorOnlyWhereItMatters) {

@@ -78,6 +78,7 @@ class Walker {
       chunks += std::max<std::uint64_t>(least, std::uint64_t(*part.chunk_count));
       if (!multi_part) break;
     }
+    part_ = 0;
     // Each chunk has an entry of eight bytes at the head of the file, so the file's own size bounds what it may claim.
     std::uint64_t table = position();
     if (table + 8 * chunks > size_) fail(fmt::format("claims {} chunks of pixels, but the file has only {} bytes", chunks, size_));

@@ -36,7 +36,7 @@ ColorChoice resolve_color(const ExrFile& file, const LayerRequest& request);
 /// `color` is where depth must share the view; null when depth comes from a file of its own.
 DepthChoice resolve_depth(const ExrFile& file, const LayerRequest& request, const ColorChoice* color);
 
-/// The same, but nothing rather than an error where the file has no depth: for `brume info` and for scenes without need.
+/// The same, but nothing and the reason rather than an error where the file has no depth.
 std::optional<DepthChoice> find_depth(const ExrFile& file, const LayerRequest& request, const ColorChoice* color,
                                       std::string* why_not);
 

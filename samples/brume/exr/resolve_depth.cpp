@@ -17,11 +17,11 @@ struct Candidate {
 
 std::string last_component(const std::string& layer) { return layer.substr(layer.rfind('.') + 1); }
 
-/// A Z beside an X or a Y is the third axis of a normal, a position or a motion vector.
+/// A Z beside an X or a Y is the third axis of a normal, a position or a motion vector; but a root Y is luminance.
 bool is_axis(const PartInfo& part, const ChannelInfo& z) {
   return std::any_of(part.channels.begin(), part.channels.end(), [&](const ChannelInfo& c) {
     const std::string base = lower(c.base);
-    return c.layer == z.layer && c.view == z.view && (base == "x" || base == "y");
+    return c.layer == z.layer && c.view == z.view && (base == "x" || (base == "y" && !c.layer.empty()));
   });
 }
 

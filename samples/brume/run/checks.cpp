@@ -6,9 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "support/error.hpp"
 
@@ -58,13 +56,6 @@ void check_outputs(const SequenceOptions& options, const std::vector<FrameFile>&
   for (const auto& output : outputs)
     if (const auto id = id_of(output); id && inputs.contains(*id))
       throw RequestError(fmt::format("{}: would overwrite the input {} (expected another place)", output.string(), inputs[*id].string()));
-}
-
-std::uint64_t memory_of_machine() {
-  std::uint64_t bytes = std::uint64_t(::sysconf(_SC_PHYS_PAGES)) * std::uint64_t(::sysconf(_SC_PAGESIZE));
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) bytes = std::min<std::uint64_t>(bytes, limit.rlim_cur);
-  return bytes;
 }
 
 }  // namespace brume::tool

@@ -57,8 +57,7 @@ class Sequence {
  public:
   Sequence(const SequenceOptions& options, std::vector<FrameFile> files)
       : options_(options), colors_(options.spaces), fogger_(options.fog), preview_(options.preview), progress_(0, options.quiet) {
-    memory_ = options.memory ? options.memory << 20 : memory_of_machine() / 2;
-    limits_.part_bytes = memory_;
+    if (options.memory) limits_.part_bytes = options.memory << 20;
     for (FrameFile& f : files) {
       FrameStats stats;
       if (options.skip_existing && std::filesystem::exists(f.output)) stats.outcome = Outcome::kSkipped;
@@ -99,7 +98,7 @@ class Sequence {
     }
     const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
     const std::size_t jobs = options_.jobs > 0 ? std::size_t(options_.jobs) : threads + 1;
-    run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(memory_ / bytes) : jobs, 1, jobs);
+    run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(limits_.part_bytes / bytes) : jobs, 1, jobs);
     Imf::setGlobalThreadCount(int(threads));
   }
 
@@ -245,7 +244,6 @@ class Sequence {
   FilePattern preview_;
   Progress progress_;
   ReadLimits limits_;
-  std::uint64_t memory_ = 0;
   RunStats run_;
   std::vector<std::size_t> to_do_;
   std::size_t next_ = 0;
