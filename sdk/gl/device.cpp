@@ -48,10 +48,12 @@ void Device::invoke(const std::function<void()> &work)
         return thread_->invoke([&] { surround(work); });
     const CurrentContext current = current_context();
     if (!current)
-        throw Error(BRUME_ERROR_GL, "no OpenGL context is current on the calling thread; expected the one that the brume "
-                                    "context was created in");
+        throw Error(BRUME_ERROR_GL,
+                    "no OpenGL context is current on the calling thread; expected the one that the brume "
+                    "context was created in");
     if (current != *borrowed_)
-        throw Error(BRUME_ERROR_GL, "another OpenGL context is current than the one that the brume context was created in");
+        throw Error(BRUME_ERROR_GL,
+                    "another OpenGL context is current than the one that the brume context was created in");
     surround(work);
 }
 
@@ -95,7 +97,8 @@ void Device::report_host_error() const
 {
     const GLenum error = take_error();
     if (error != GL_NO_ERROR)
-        log_(BRUME_LOG_WARNING, "an OpenGL error was pending before this call, and reading it cleared it: " + error_name(error));
+        log_(BRUME_LOG_WARNING,
+             "an OpenGL error was pending before this call, and reading it cleared it: " + error_name(error));
 }
 
 bool is_software(const std::string &renderer)

@@ -10,8 +10,8 @@
 
 namespace brume::gl {
 
-// Where GL calls are made, the owned context on its thread or the borrowed one on the caller's, and what surrounds them:
-// the right context, the state guard, and errors that are not mistaken for each other's.
+// Where GL calls are made, the owned context on its thread or the borrowed one on the caller's, and what surrounds
+// them: the right context, the state guard, and errors that are not mistaken for each other's.
 class Device {
 public:
     // Throws Error(BRUME_ERROR_GL) where there is no OpenGL 4.5.

@@ -83,8 +83,8 @@ EglContext::EglContext()
     }
 
     if (platforms && listed(client, "EGL_MESA_platform_surfaceless")) {
-        if (attempt(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "surfaceless",
-                    failures))
+        if (attempt(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+                    "surfaceless", failures))
             return;
     } else {
         failures += "; surfaceless: EGL_MESA_platform_surfaceless is missing";

@@ -81,13 +81,15 @@ void require_plain_sampling(const HostTexture &texture, const std::string &what)
 {
     const GLint base = parameter(texture.name, GL_TEXTURE_BASE_LEVEL);
     if (base != 0)
-        refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name, "has GL_TEXTURE_BASE_LEVEL " + std::to_string(base) + "; expected 0");
+        refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
+               "has GL_TEXTURE_BASE_LEVEL " + std::to_string(base) + "; expected 0");
     GLint swizzle[4] = {};
     glGetTextureParameteriv(texture.name, GL_TEXTURE_SWIZZLE_RGBA, swizzle);
     const GLint plain[] = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
     for (int i = 0; i < (texture.scalar ? 1 : 4); ++i)
         if (swizzle[i] != plain[i])
-            refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name, "is swizzled (GL_TEXTURE_SWIZZLE_RGBA); expected the initial swizzle");
+            refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
+                   "is swizzled (GL_TEXTURE_SWIZZLE_RGBA); expected the initial swizzle");
 }
 
 }  // namespace
@@ -126,10 +128,12 @@ HostTexture inspect(const brume_image &image, const std::string &what, StateGuar
     texture.scalar = depth || texture.format == GL_R16F || texture.format == GL_R32F;
     if (!texture.color && !texture.scalar)
         refuse(BRUME_ERROR_UNSUPPORTED, what, name,
-               "is " + format_text(texture.format) + "; expected a floating-point or normalised format with red, green and "
-               "blue for colour, GL_R16F, GL_R32F or a depth format for depth");
+               "is " + format_text(texture.format) +
+                   "; expected a floating-point or normalised format with red, green and "
+                   "blue for colour, GL_R16F, GL_R32F or a depth format for depth");
     if (depth && parameter(name, GL_DEPTH_STENCIL_TEXTURE_MODE) != GL_DEPTH_COMPONENT)
-        refuse(BRUME_ERROR_UNSUPPORTED, what, name, "is sampled as stencil; expected GL_DEPTH_STENCIL_TEXTURE_MODE GL_DEPTH_COMPONENT");
+        refuse(BRUME_ERROR_UNSUPPORTED, what, name,
+               "is sampled as stencil; expected GL_DEPTH_STENCIL_TEXTURE_MODE GL_DEPTH_COMPONENT");
     require_complete(image, what);
     require_plain_sampling(texture, what);
     return texture;

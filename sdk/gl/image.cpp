@@ -45,7 +45,8 @@ GLenum image_format(int32_t channels, uint32_t pixel)
         if (format.channels == channels && format.pixel == pixel)
             return format.name;
     throw Error(BRUME_ERROR_ARGUMENT, "an image of " + std::to_string(channels) + " channels and pixel type " +
-                                          std::to_string(pixel) + "; expected 1, 2 or 4 channels of BRUME_PIXEL_F32 or _F16");
+                                          std::to_string(pixel) +
+                                          "; expected 1, 2 or 4 channels of BRUME_PIXEL_F32 or _F16");
 }
 
 ImagePool::ImagePool(std::shared_ptr<Disposal> disposal) : disposal_(std::move(disposal))
@@ -60,7 +61,8 @@ std::shared_ptr<GlImage> ImagePool::take(int32_t width, int32_t height, int32_t 
     if (width < 1 || height < 1)
         throw Error(BRUME_ERROR_ARGUMENT, "an image of " + size + "; expected at least 1 x 1");
     if (width > largest_size_ || height > largest_size_)
-        throw Error(BRUME_ERROR_UNSUPPORTED, "an image of " + size + " is larger than this device's textures, which have at most " +
+        throw Error(BRUME_ERROR_UNSUPPORTED, "an image of " + size +
+                                                 " is larger than this device's textures, which have at most " +
                                                  std::to_string(largest_size_) + " pixels a side");
 
     std::unique_ptr<GlImage> image = find_idle(width, height, format);
@@ -72,8 +74,8 @@ std::shared_ptr<GlImage> ImagePool::take(int32_t width, int32_t height, int32_t 
         image = allocate(width, height, channels, format);
     }
     if (!image)
-        throw Error(BRUME_ERROR_MEMORY, "no device memory for an image of " + size + " " + format_of(format).text + "; " +
-                                            std::to_string(bytes_ >> 20) + " MiB are in use");
+        throw Error(BRUME_ERROR_MEMORY, "no device memory for an image of " + size + " " + format_of(format).text +
+                                            "; " + std::to_string(bytes_ >> 20) + " MiB are in use");
     return {image.release(),
             [pool = shared_from_this()](GlImage *back) { pool->put_back(std::unique_ptr<GlImage>(back)); }};
 }
@@ -124,8 +126,8 @@ std::unique_ptr<GlImage> ImagePool::allocate(int32_t width, int32_t height, int3
     if (error == GL_OUT_OF_MEMORY)
         return nullptr;
     if (error != GL_NO_ERROR)
-        throw Error(BRUME_ERROR_GL, "glTextureStorage2D, " + std::to_string(width) + " x " + std::to_string(height) + " " +
-                                        layout.text + ": OpenGL reports " + error_name(error));
+        throw Error(BRUME_ERROR_GL, "glTextureStorage2D, " + std::to_string(width) + " x " + std::to_string(height) +
+                                        " " + layout.text + ": OpenGL reports " + error_name(error));
 
     image->width = width;
     image->height = height;

@@ -41,7 +41,8 @@ private:
 class Dispatch {
 public:
     Dispatch(const brume_plugin_pass &pass, const Samplers &samplers, StateGuard &guard)
-        : pass_(pass), samplers_(samplers), guard_(guard), name_("pass \"" + std::string(pass.name ? pass.name : "") + "\"")
+        : pass_(pass), samplers_(samplers), guard_(guard),
+          name_("pass \"" + std::string(pass.name ? pass.name : "") + "\"")
     {
     }
 
@@ -56,11 +57,15 @@ public:
         glUseProgram(program.id());
         glDispatchCompute(GLuint((pass_.width + group_side - 1) / group_side),
                           GLuint((pass_.height + group_side - 1) / group_side), 1);
-        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                        GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
 
 private:
-    [[noreturn]] void refuse(const std::string &problem) const { throw Error(BRUME_ERROR_ARGUMENT, name_ + ": " + problem); }
+    [[noreturn]] void refuse(const std::string &problem) const
+    {
+        throw Error(BRUME_ERROR_ARGUMENT, name_ + ": " + problem);
+    }
 
     void check() const
     {
@@ -113,7 +118,8 @@ private:
             if (!binding.image)
                 refuse(label + ": its image is NULL");
             if (binding.access > BRUME_ACCESS_WRITE)
-                refuse(label + ": access " + std::to_string(binding.access) + "; expected BRUME_ACCESS_FETCH, _LINEAR or _WRITE");
+                refuse(label + ": access " + std::to_string(binding.access) +
+                       "; expected BRUME_ACCESS_FETCH, _LINEAR or _WRITE");
             const auto slot = program.slots().find(std::string_view(binding.name));
             if (slot == program.slots().end())
                 continue;
@@ -187,7 +193,8 @@ void Samplers::destroy()
     glDeleteSamplers(2, names);
 }
 
-void run_pass(const brume_plugin_pass &pass, const brume_plugin_scene &scene, const Samplers &samplers, StateGuard &guard)
+void run_pass(const brume_plugin_pass &pass, const brume_plugin_scene &scene, const Samplers &samplers,
+              StateGuard &guard)
 {
     Dispatch(pass, samplers, guard).run(scene);
 }

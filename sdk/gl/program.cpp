@@ -92,8 +92,9 @@ void GlProgram::refuse_buffers() const
         GLint count = 0;
         glGetProgramInterfaceiv(id_, interface, GL_ACTIVE_RESOURCES, &count);
         if (count > 0)
-            throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\" uses uniform blocks, storage blocks or atomic counters; "
-                                        "expected plain uniforms, sampler2D and image2D only");
+            throw Error(BRUME_ERROR_GL, "program \"" + name_ +
+                                            "\" uses uniform blocks, storage blocks or atomic counters; "
+                                            "expected plain uniforms, sampler2D and image2D only");
     }
 }
 
@@ -122,8 +123,9 @@ void GlProgram::list_uniforms()
             glProgramUniform1i(id_, uniform.location, GLint(unit));
             slots_[name] = {unit, image};
         } else {
-            throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\": uniform " + name + " has a type that passes cannot set; "
-                                        "expected float, int, their vectors, bool, sampler2D or image2D");
+            throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\": uniform " + name +
+                                            " has a type that passes cannot set; "
+                                            "expected float, int, their vectors, bool, sampler2D or image2D");
         }
     }
 }

@@ -15,8 +15,8 @@ struct ProgramSource {
     std::vector<Place> places;
 };
 
-// Version, defines, prelude.glsl and the source, with `#include "x.glsl"` of shaders/lib replaced by the file, once each.
-// Throws Error(BRUME_ERROR_GL) on an include that cannot be had.
+// Version, defines, prelude.glsl and the source, with `#include "x.glsl"` of shaders/lib replaced by the file, once
+// each. Throws Error(BRUME_ERROR_GL) on an include that cannot be had.
 ProgramSource assemble_program(const std::string &name, const std::string &source, const std::string &defines);
 
 // The compiler's log with files and their lines for lines of the whole text, in any of the drivers' notations.

@@ -11,8 +11,8 @@
 namespace brume::gl {
 
 // The state of the host's context that passes and transfers change; docs/gl-state.md is its contract. What a piece of
-// work does not touch is not even read: each function is called before the state it names is changed for the first time.
-// At the end everything goes back (BRUME_GL_STATE_PRESERVE), to GL's initial values (DEFAULTS), or stays (OWNED).
+// work does not touch is not even read: each function is called before the state it names is changed for the first
+// time. At the end everything goes back (BRUME_GL_STATE_PRESERVE), to GL's initial values (DEFAULTS), or stays (OWNED).
 class StateGuard {
 public:
     // compatibility: the context has fixed-function pixel transfer, which would alter uploads.

@@ -127,14 +127,18 @@ TEST(Borrowed, RefusesOtherApis)
 
 struct Logged {
     std::vector<std::string> messages;
-    static void add(void *user, uint32_t, const char *message) { static_cast<Logged *>(user)->messages.push_back(message); }
+    static void add(void *user, uint32_t, const char *message)
+    {
+        static_cast<Logged *>(user)->messages.push_back(message);
+    }
 };
 
 TEST(Borrowed, PendingErrorsOfTheHostAreReportedAndNotOurs)
 {
     HostContext host;
     Logged logged;
-    auto backend = make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
+    auto backend =
+        make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
     EXPECT_TRUE(logged.messages.empty());
     glEnable(GL_TEXTURE_2D + 12345);  // GL_INVALID_ENUM
     EXPECT_EQ(scaled(*backend, 2), expected(2));
@@ -147,7 +151,8 @@ TEST(Borrowed, DestroyedWithoutItsContext)
 {
     HostContext host;
     Logged logged;
-    auto backend = make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
+    auto backend =
+        make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
     host.release();
     backend.reset();
     ASSERT_EQ(logged.messages.size(), 1u);
@@ -199,7 +204,8 @@ protected:
                     backend->import(image, channels);
             });
         });
-        EXPECT_TRUE(failure.status == BRUME_OK || failure.message.find("texture") != std::string::npos) << failure.message;
+        EXPECT_TRUE(failure.status == BRUME_OK || failure.message.find("texture") != std::string::npos)
+            << failure.message;
         return failure.message;
     }
 };
@@ -294,7 +300,8 @@ TEST_F(Textures, DepthIsReadAsItIs)
 TEST_F(Textures, CopiesBetweenTexturesAndMemory)
 {
     std::vector<float> values = ramp(width * height * 4), back(values.size());
-    const brume_image source = host_image(values.data(), width, height, 4), target = host_image(back.data(), width, height, 4);
+    const brume_image source = host_image(values.data(), width, height, 4),
+                      target = host_image(back.data(), width, height, 4);
     const brume_image full = texture_image(make_texture(GL_RGBA32F, width, height), width, height);
     const brume_image half = texture_image(make_texture(GL_RGBA16F, width, height), width, height);
     const brume_image second = texture_image(make_texture(GL_RGBA16F, width, height), width, height);

@@ -12,13 +12,18 @@ HostContext::HostContext(Profile profile)
         throw std::runtime_error("no EGL device");
     display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
     eglInitialize(display_, nullptr, nullptr);
-    const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+    const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION,
+                              4,
+                              EGL_CONTEXT_MINOR_VERSION,
+                              5,
+                              EGL_CONTEXT_OPENGL_PROFILE_MASK,
                               profile == Profile::compatibility ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT
                                                                 : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                               EGL_NONE};
     const EGLint embedded[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     eglBindAPI(profile == Profile::es ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
-    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, profile == Profile::es ? embedded : desktop);
+    context_ =
+        eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, profile == Profile::es ? embedded : desktop);
     if (context_ == EGL_NO_CONTEXT)
         throw std::runtime_error("no OpenGL context for the test");
     make_current();

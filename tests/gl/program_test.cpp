@@ -36,16 +36,17 @@ protected:
 
 std::string storing(const std::string &expression, const std::string &before = "")
 {
-    return before + "\nwriteonly uniform image2D result;\nvoid main() { imageStore(result, ivec2(0), vec4(" + expression +
-           ")); }\n";
+    return before + "\nwriteonly uniform image2D result;\nvoid main() { imageStore(result, ivec2(0), vec4(" +
+           expression + ")); }\n";
 }
 
 TEST_F(Programs, DefinesAndIncludes)
 {
     EXPECT_EQ(evaluate(storing("VALUE"), "#define VALUE 3.5"), 3.5f);
     EXPECT_EQ(evaluate(storing("VALUE"), "#define VALUE 4.5\n#define OTHER\n"), 4.5f);
-    EXPECT_EQ(evaluate(storing("float(max_density_terms)", "#include \"scene.glsl\"\n  # include \"scene.glsl\" // again")),
-              16.0f);
+    EXPECT_EQ(
+        evaluate(storing("float(max_density_terms)", "#include \"scene.glsl\"\n  # include \"scene.glsl\" // again")),
+        16.0f);
 }
 
 TEST_F(Programs, ErrorsNameTheFileAndLine)
@@ -113,9 +114,10 @@ TEST_F(Programs, SceneUniforms)
     scene.camera.center[1] = 7;
     scene.camera.sky = 2;
     scene.output_limit = 65504;
-    const std::string at = storing("brume_medium.scattering.y * 1000.0 + brume_medium.terms[brume_medium.term_count - 1].w "
-                                   "* 100.0 + brume_camera.center.y * 10.0 + float(brume_camera.sky)",
-                                   declared);
+    const std::string at =
+        storing("brume_medium.scattering.y * 1000.0 + brume_medium.terms[brume_medium.term_count - 1].w "
+                "* 100.0 + brume_camera.center.y * 10.0 + float(brume_camera.sky)",
+                declared);
     EXPECT_EQ(evaluate(at, "", scene), 2572.0f);
     scene.camera.sky = 1;
     EXPECT_EQ(evaluate(at, "", scene), 2571.0f);
@@ -135,12 +137,18 @@ uniform sampler2D source;
 writeonly uniform image2D target;
 uniform vec2 offset[2];
 void main() { imageStore(target, ivec2(gl_GlobalInvocationID.x & 1u, 0), textureLod(source, offset[gl_GlobalInvocationID.x & 1u], 0.0)); }
-)", "");
+)",
+                                      "");
         auto image = backend->import(from, 4);
         auto middle = backend->create_image(2, 1, 4, BRUME_PIXEL_F32);
         auto output = backend->begin_output(to, 4, true);
-        Pass("scale", *scale, 2, 1).bind("source", *image, BRUME_ACCESS_FETCH).bind("target", *middle, BRUME_ACCESS_WRITE)
-            .bind("not there", *image, BRUME_ACCESS_FETCH).set("factor", std::vector{2.0f}).set("unused", std::vector{1}).run(*backend);
+        Pass("scale", *scale, 2, 1)
+            .bind("source", *image, BRUME_ACCESS_FETCH)
+            .bind("target", *middle, BRUME_ACCESS_WRITE)
+            .bind("not there", *image, BRUME_ACCESS_FETCH)
+            .set("factor", std::vector{2.0f})
+            .set("unused", std::vector{1})
+            .run(*backend);
         Pass pass("blend", *blend, 2, 1);
         const float offset[] = {-1.0f, 0.5f, 0.5f, 0.5f};  // clamped to the first pixel; between the two
         pass.bind("source", *middle, BRUME_ACCESS_LINEAR).bind("target", *output, BRUME_ACCESS_WRITE);
@@ -275,7 +283,10 @@ TEST_F(Programs, Timers)
             timer->begin();
             for (int entry : {0, 1, 0, -1}) {
                 timer->mark(entry);
-                Pass("p", *program, 512, 512).bind("source", *from, BRUME_ACCESS_FETCH).bind("target", *to, BRUME_ACCESS_WRITE).run(*backend);
+                Pass("p", *program, 512, 512)
+                    .bind("source", *from, BRUME_ACCESS_FETCH)
+                    .bind("target", *to, BRUME_ACCESS_WRITE)
+                    .run(*backend);
             }
         };
         for (int i = 0; i < 3; ++i) {

@@ -66,8 +66,9 @@ TEST_P(State, PreserveRestoresAllOfIt)
     dirty_state(GetParam());
     const HostState before = read_state(GetParam());
     for (const auto &[name, values] : before) {
-        static const std::regex stays_clean("GL_TRANSFORM_.*|GL_.*_COMPRESSED_.*|.*_LAYERED|GL_TEXTURE_BINDING_3D|"
-                                            "GL_TEXTURE_CUBE_MAP_SEAMLESS|GL_(ARRAY|UNIFORM|DISPATCH_INDIRECT)_BUFFER_BINDING");
+        static const std::regex stays_clean(
+            "GL_TRANSFORM_.*|GL_.*_COMPRESSED_.*|.*_LAYERED|GL_TEXTURE_BINDING_3D|"
+            "GL_TEXTURE_CUBE_MAP_SEAMLESS|GL_(ARRAY|UNIFORM|DISPATCH_INDIRECT)_BUFFER_BINDING");
         if (!std::regex_match(name, stays_clean)) {
             EXPECT_NE(values, initial.at(name)) << name << " was not dirtied";
         }
@@ -132,7 +133,8 @@ TEST_P(State, OwnedStillComputesRight)
 
 TEST_P(State, WorksInsideTransformFeedback)
 {
-    const char *source = "#version 450 core\nout float captured;\nvoid main() { captured = 1.0; gl_Position = vec4(0); }\n";
+    const char *source =
+        "#version 450 core\nout float captured;\nvoid main() { captured = 1.0; gl_Position = vec4(0); }\n";
     const GLuint shader = glCreateShader(GL_VERTEX_SHADER), program = glCreateProgram();
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);

@@ -72,7 +72,8 @@ class Transfer : public testing::Test {
 protected:
     std::unique_ptr<Backend> backend = owned_backend();
 
-    void check_round_trip(uint32_t from_channels, uint32_t to_channels, int32_t through, uint32_t pixel, const Layout &layout)
+    void check_round_trip(uint32_t from_channels, uint32_t to_channels, int32_t through, uint32_t pixel,
+                          const Layout &layout)
     {
         SCOPED_TRACE(testing::Message() << layout.name << ", " << from_channels << " channels to " << to_channels
                                         << " through " << through << ", pixel type " << pixel);
@@ -144,8 +145,11 @@ TEST_F(Transfer, FloatsBecomeTheNearestHalves)
         auto program = backend->compile("scale", scale_source, "");
         auto source = backend->import(host_image(floats.data(), 64, 16, 4), 4);
         auto target = backend->begin_output(output, 4, true);
-        Pass("scale", *program, 64, 16).bind("source", *source, BRUME_ACCESS_FETCH).bind("target", *target, BRUME_ACCESS_WRITE)
-            .set("factor", std::vector{1.0f}).run(*backend);
+        Pass("scale", *program, 64, 16)
+            .bind("source", *source, BRUME_ACCESS_FETCH)
+            .bind("target", *target, BRUME_ACCESS_WRITE)
+            .set("factor", std::vector{1.0f})
+            .run(*backend);
         backend->finish_output(output, *target);
     });
     EXPECT_EQ(written, halves);

@@ -107,7 +107,8 @@ TEST_F(HostTextures, SameBitsAsHostMemory)
     const brume_image host_depth = brume::image(depth.data(), width, height, 1);
 
     std::vector<float> floats(color.size());
-    plan.execute(brume::image(color.data(), width, height, 4), host_depth, brume::image(floats.data(), width, height, 4));
+    plan.execute(brume::image(color.data(), width, height, 4), host_depth,
+                 brume::image(floats.data(), width, height, 4));
     EXPECT_NE(floats, color);
     const GLuint full = filled_texture(GL_RGBA32F, GL_RGBA, color), full_out = make_texture(GL_RGBA32F, width, height);
     plan.execute(texture_image(full), texture_image(depth_texture, 1), texture_image(full_out));
@@ -141,7 +142,8 @@ TEST_F(HostTextures, FloatTexturesAreNotClampedToHalves)
     plan.execute(brume::image(bright.data(), width, height, 4), brume::image(depth.data(), width, height, 1),
                  brume::image(floats.data(), width, height, 4));
     const GLuint texture = filled_texture(GL_RGBA32F, GL_RGBA, bright);
-    plan.execute(texture_image(texture), texture_image(filled_texture(GL_R32F, GL_RED, depth), 1), texture_image(texture));
+    plan.execute(texture_image(texture), texture_image(filled_texture(GL_R32F, GL_RED, depth), 1),
+                 texture_image(texture));
     EXPECT_EQ(read<float>(texture), floats);
     EXPECT_GT(*std::max_element(floats.begin(), floats.end()), 65504.0f);
 }
@@ -165,7 +167,8 @@ TEST_F(HostTextures, MixedKinds)
     Plan plan = make_plan(borrowed());
     const brume_image memory_depth = brume::image(depth.data(), width, height, 1);
     std::vector<float> expected(color.size()), got(color.size());
-    plan.execute(brume::image(color.data(), width, height, 4), memory_depth, brume::image(expected.data(), width, height, 4));
+    plan.execute(brume::image(color.data(), width, height, 4), memory_depth,
+                 brume::image(expected.data(), width, height, 4));
     plan.execute(texture_image(filled_texture(GL_RGBA16F, GL_RGBA, color)), memory_depth,
                  brume::image(got.data(), width, height, 4));
     EXPECT_EQ(got, expected);
@@ -189,7 +192,8 @@ TEST_F(HostTextures, BottomLeftOriginIsTheFlippedPicture)
                  brume::texture(out, width, height, 4));
     const std::vector<float> got = flipped(read<float>(out), 4);
     for (size_t i = 0; i < got.size(); ++i)
-        ASSERT_NEAR(got[i], expected[i], 1e-5f * std::abs(expected[i]) + 1e-5f) << "pixel " << i / 4 % width << ", " << i / 4 / width;
+        ASSERT_NEAR(got[i], expected[i], 1e-5f * std::abs(expected[i]) + 1e-5f)
+            << "pixel " << i / 4 % width << ", " << i / 4 / width;
 }
 
 TEST_F(HostTextures, PlanThatDoesNothingCopiesBits)
@@ -237,12 +241,14 @@ TEST_F(HostTextures, FailuresAreNamed)
         }
         return std::string();
     };
-    EXPECT_NE(message(in, z, texture_image(make_texture(GL_RGBA8, width, height)), BRUME_ERROR_UNSUPPORTED).find("GL_RGBA8"),
-              std::string::npos);
+    EXPECT_NE(
+        message(in, z, texture_image(make_texture(GL_RGBA8, width, height)), BRUME_ERROR_UNSUPPORTED).find("GL_RGBA8"),
+        std::string::npos);
     EXPECT_NE(message(texture_image(12345), z, in, BRUME_ERROR_ARGUMENT).find("color: texture 12345 does not exist"),
               std::string::npos);
     EXPECT_NE(message(z, z, in, BRUME_ERROR_ARGUMENT), "") << "channels differ";
-    EXPECT_NE(message(in, texture_image(in.gl_texture, 1), in, BRUME_ERROR_UNSUPPORTED).find("depth: "), std::string::npos);
+    EXPECT_NE(message(in, texture_image(in.gl_texture, 1), in, BRUME_ERROR_UNSUPPORTED).find("depth: "),
+              std::string::npos);
     host.release();
     EXPECT_NE(message(in, z, in, BRUME_ERROR_GL).find("no OpenGL context is current"), std::string::npos);
     host.make_current();
