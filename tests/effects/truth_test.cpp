@@ -2,32 +2,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "fog.h"
+#include "exr.h"
 
 using namespace fog;
 
 namespace {
-
-Picture read(const std::string &file, const std::vector<std::string> &channels)
-{
-    Imf::InputFile in(file.c_str());
-    Imath::Box2i window = in.header().dataWindow();
-    Picture p(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, int(channels.size()));
-    Imf::FrameBuffer buffer;
-    size_t pixel = sizeof(float) * channels.size();
-    for (size_t c = 0; c < channels.size(); ++c)
-        buffer.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, p.data.data() + c, window, pixel, pixel * size_t(p.width), 1, 1,
-                                                    channels[c] == "A" ? 1.0 : 0.0));
-    in.setFrameBuffer(buffer);
-    in.readPixels(window.min.y, window.max.y);
-    return p;
-}
 
 // The metric of the tool's `compare`: 2 x 2 box averages, a 3 x 3 box filter, then relMSE.
 double rel_mse(const Picture &a, const Picture &b)
@@ -84,8 +66,8 @@ TEST(Truth, PaperKernelOnPathTracedScenes)
             scene["medium"] = description["medium"];
             scene["medium"].erase("orders");
             std::string clear = folder / (std::string(name) + "_clear.exr");
-            Picture color = read(clear, {"R", "G", "B", "A"}), depth = read(clear, {"Z"}), truth = read(file + ".exr", {"R", "G", "B"});
-            Picture color_rgb = read(clear, {"R", "G", "B"});
+            Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}), truth = read_exr(file + ".exr", {"R", "G", "B"});
+            Picture color_rgb = read_exr(clear, {"R", "G", "B"});
             double fogged = rel_mse(run(cpu(), scene.dump(), color, depth).output, truth), none = rel_mse(color_rgb, truth);
             printf("%s %s: relMSE %.3f, without fog %.3f\n", name, medium, fogged, none);
             product *= fogged;

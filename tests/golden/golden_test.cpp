@@ -1,0 +1,123 @@
+// A frame of the demo sequence, quartered, through kernels and media: the same pixels tomorrow.
+// `./run goldens` renews the images; look at what changed before committing them.
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "exr.h"
+
+using namespace fog;
+
+namespace {
+
+bool renewing = false;
+
+struct Golden {
+    const char *name;
+    const char *medium;
+    const char *parameters;
+};
+
+const Golden goldens[] = {
+    {"paper", "\"scattering\":[0.03,0.03,0.032],\"g\":0.8", ""},
+    {"paper_tilted_exponential",
+     "\"scattering\":0.06,\"absorption\":[0.002,0.001,0],\"g\":0.6,\"density\":[{\"type\":\"exponential\",\"value\":1,"
+     "\"falloff\":0.15,\"direction\":[0.1,0,1]}]",
+     ""},
+    {"paper_bilinear_2x2", "\"scattering\":0.05,\"g\":0.8", "\"kernel_size\":\"2x2\",\"fetch\":\"linear_bilinear\""},
+    {"paper_cubic_6x6", "\"scattering\":0.05,\"g\":0.8", "\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\""},
+    {"paper_separation", "\"scattering\":0.05,\"g\":0.8",
+     "\"separation\":true,\"separation_luminance\":4,\"separation_density\":60"},
+    {"paper_furnace", "\"visibility\":80,\"g\":0.8", "\"masking\":false,\"density_blurring\":false"},
+    {"paper_emission", "\"scattering\":0.02,\"absorption\":0.01,\"emission\":[0.004,0.005,0.008],\"droplet_diameter\":12", ""},
+    {"reference", "\"scattering\":0.02,\"absorption\":0.01,\"g\":0.9", "\"kernel\":\"reference\""},
+};
+
+struct Input {
+    Picture color{160, 90, 4, 1}, depth{160, 90, 1};
+};
+
+// Colour is averaged, depth is not.
+const Input &input()
+{
+    static const Input quartered = [] {
+        std::string file = std::string(BRUME_FRAMES_DIR) + "/street.0001.exr";
+        Picture color = read_exr(file, {"R", "G", "B", "A"}), depth = read_exr(file, {"Z"});
+        Input in;
+        for (int y = 0; y < 90; ++y)
+            for (int x = 0; x < 160; ++x) {
+                for (int c = 0; c < 4; ++c) {
+                    float sum = 0;
+                    for (int j = 0; j < 4; ++j)
+                        for (int i = 0; i < 4; ++i)
+                            sum += color.at(4 * x + i, 4 * y + j)[c];
+                    in.color.at(x, y)[c] = sum / 16;
+                }
+                in.depth.at(x, y)[0] = depth.at(4 * x + 1, 4 * y + 1)[0];
+            }
+        return in;
+    }();
+    return quartered;
+}
+
+std::string text_of(const Golden &golden)
+{
+    // A camera 1.7 m up that looks along +y in a world whose z is up.
+    return std::string("{\"brume\":1,\"camera\":{\"vertical_fov\":36,\"camera_to_world\":[[1,0,0,0],[0,0,-1,0],[0,1,0,1.7],[0,0,0,1]]},"
+                       "\"medium\":{") + golden.medium + "},\"effects\":{\"multiscatter\":{" + golden.parameters + "}}}";
+}
+
+class GoldenTest : public testing::TestWithParam<Golden> {
+protected:
+    void hold(const Picture &output, const char *backend, double bound)
+    {
+        std::string name = GetParam().name, golden = std::string(BRUME_GOLDEN_DIR) + "/" + name + ".exr";
+        const std::vector<std::string> rgb{"R", "G", "B"};
+        Picture actual(output.width, output.height, 3);
+        for (int i = 0; i < output.width * output.height; ++i)
+            std::copy_n(output.data.data() + 4 * i, 3, actual.data.data() + 3 * i);
+        if (renewing) {
+            write_exr(golden, actual, rgb);
+            printf("renewed %s\n", golden.c_str());
+            return;
+        }
+        Worst worst = compare(actual, read_exr(golden, rgb), 1e-2);
+        if (worst.error <= bound)
+            return;
+        std::filesystem::create_directories(BRUME_FAILURES_DIR);
+        std::string base = std::string(BRUME_FAILURES_DIR) + "/" + name + "." + backend;
+        write_exr(base + ".exr", actual, rgb);
+        std::string command = std::string(BRUME_TOOL) + " compare " + base + ".exr " + golden + " -d " + base + ".difference.png";
+        int drawn = std::system(command.c_str());
+        ADD_FAILURE() << name << " on " << backend << ": " << worst.describe() << "; allowed " << bound << "\n  golden " << golden
+                      << "\n  now " << base << ".exr\n  difference " << (drawn == 0 ? base + ".difference.png" : "could not be drawn");
+    }
+};
+
+}  // namespace
+
+TEST_P(GoldenTest, Cpu)
+{
+    // Not bit for bit: another C library's exp and log2 may round otherwise.
+    hold(run(cpu(), text_of(GetParam()), input().color, input().depth).output, "cpu", 2e-5);
+}
+
+TEST_P(GoldenTest, Gl)
+{
+    if (renewing || std::strcmp(GetParam().name, "reference") == 0)
+        return;  // the CPU is the truth, and the only one with the reference
+    if (!gl())
+        throw std::runtime_error("no GL backend");
+    hold(run(*gl(), text_of(GetParam()), input().color, input().depth).output, "gl", 1e-2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Street, GoldenTest, testing::ValuesIn(goldens), [](auto &info) { return info.param.name; });
+
+int main(int argc, char **argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    renewing = argc > 1 && std::strcmp(argv[1], "--renew") == 0;
+    return RUN_ALL_TESTS();
+}
