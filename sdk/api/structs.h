@@ -10,12 +10,13 @@ namespace brume::api {
 // Larger than any struct will ever be: beyond it a size is uninitialised memory, and the tail is not to be read.
 constexpr uint32_t largest_struct = 1024;
 
-// Refuses a size that cannot be, and bytes past the end known here that say something.
-template <class Struct> void check_size(const Struct *given, const char *name)
+// The size that the caller gave; refuses one that cannot be, and bytes past the end known here that say something.
+template <class Struct> uint32_t checked_size(const Struct *given, const char *name)
 {
     if (!given)
         throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + ": NULL");
-    uint32_t size = given->struct_size;
+    uint32_t size;  // by bytes: an array of structs of an odd size leaves its elements unaligned
+    std::memcpy(&size, given, sizeof size);
     if (size < sizeof(uint32_t) || size > largest_struct)
         throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + ".struct_size: " + std::to_string(size) +
                                               "; expected sizeof, as its INIT macro sets it");
@@ -25,20 +26,21 @@ template <class Struct> void check_size(const Struct *given, const char *name)
             throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + ".struct_size: " + std::to_string(size) +
                                                   " with nonzero bytes past the " + std::to_string(sizeof(Struct)) +
                                                   " this library knows");
+    return size;
 }
 
 // Size-tagged structs: defaults first, then every field that lies wholly inside the size the caller gave.
 template <class Struct, class... Fields>
 Struct read_struct(const Struct *given, const Struct &defaults, const char *name, Fields Struct::*...fields)
 {
-    check_size(given, name);
+    const uint32_t size = checked_size(given, name);
     auto bytes = reinterpret_cast<const unsigned char *>(given);
     Struct result = defaults;
     auto take = [&](auto field) {
         size_t end = size_t(reinterpret_cast<const unsigned char *>(&(result.*field)) -
                             reinterpret_cast<const unsigned char *>(&result)) +
                      sizeof(result.*field);
-        if (end <= given->struct_size)
+        if (end <= size)
             std::memcpy(&(result.*field), bytes + end - sizeof(result.*field), sizeof(result.*field));
     };
     (take(fields), ...);
@@ -48,9 +50,9 @@ Struct read_struct(const Struct *given, const Struct &defaults, const char *name
 // Fills as much of the caller's struct as it has room for.
 template <class Struct> void write_struct(Struct *out, Struct value, const char *name)
 {
-    check_size(out, name);
-    value.struct_size = out->struct_size;
-    std::memcpy(static_cast<void *>(out), &value, std::min<size_t>(out->struct_size, sizeof(Struct)));
+    const uint32_t size = checked_size(out, name);
+    value.struct_size = size;
+    std::memcpy(static_cast<void *>(out), &value, std::min<size_t>(size, sizeof(Struct)));
 }
 
 // Copies text out, cut to capacity and terminated; returns the bytes the whole needs.

@@ -215,4 +215,15 @@ TEST_F(StructSize, ArraysAreWalkedByTheirOwnSize)
     expect_status(context.get(), brume_scene_set_medium(scene.get(), &medium), BRUME_ERROR_ARGUMENT, "terms[2].value");
     terms[2].term.value = 1;
     expect_status(context.get(), brume_scene_set_medium(scene.get(), &medium), BRUME_OK, "");
+
+    // A size of no struct's: elements lie where it says, aligned or not.
+    alignas(8) unsigned char bytes[3 * (sizeof(brume_density_term) + 1)] = {};
+    const brume_density_term term = BRUME_DENSITY_TERM_INIT;
+    const uint32_t odd = sizeof term + 1;
+    for (uint32_t i = 0; i < 3; ++i) {
+        std::memcpy(bytes + i * odd, &term, sizeof term);
+        std::memcpy(bytes + i * odd, &odd, sizeof odd);
+    }
+    medium.terms = reinterpret_cast<const brume_density_term *>(bytes);
+    expect_status(context.get(), brume_scene_set_medium(scene.get(), &medium), BRUME_OK, "");
 }
