@@ -84,7 +84,8 @@ class Walker {
     if (table + 8 * chunks > size_) fail(fmt::format("claims {} chunks of pixels, but the file has only {} bytes", chunks, size_));
     for (part_ = 0; part_ < int(parts.size()); ++part_) {
       const PartHeader& part = parts[std::size_t(part_)];
-      if (is_deep(part)) check_deep_chunks(table, *part.chunk_count, is_tiled(part), multi_part);
+      if (is_deep(part)) check_deep_chunks(table, part, multi_part);
+      else if (multi_part) check_flat_chunks(table, part);
       table += 8 * std::uint64_t(*part.chunk_count);
     }
   }
@@ -187,15 +188,31 @@ class Walker {
   }
 
   /// The library allocates a deep chunk by the size that it claims, even to copy it undecoded.
-  void check_deep_chunks(std::uint64_t table, std::int32_t count, bool tiled, bool multi_part) {
-    const std::uint64_t sizes_at = (multi_part ? 4u : 0u) + (tiled ? 16u : 4u);
-    for (std::int32_t i = 0; i < count; ++i) {
+  void check_deep_chunks(std::uint64_t table, const PartHeader& part, bool multi_part) {
+    const std::uint64_t sizes_at = (multi_part ? 4u : 0u) + (is_tiled(part) ? 16u : 4u);
+    for (std::int32_t i = 0; i < *part.chunk_count; ++i) {
       const auto offset = read_at<std::uint64_t>(table + 8 * std::uint64_t(i));
       if (offset > size_ || offset + sizes_at + 24 > size_)
         fail(fmt::format("chunk {} is at byte {} (file of {} bytes)", i, offset, size_));
       const auto counts = read_at<std::uint64_t>(offset + sizes_at), samples = read_at<std::uint64_t>(offset + sizes_at + 8);
       if (counts > size_ || samples > size_ || offset + counts + samples > size_)
         fail(fmt::format("chunk {} claims {} and {} bytes, but the file has only {}", i, counts, samples, size_));
+    }
+  }
+
+  /// Copied undecoded, a flat chunk passes through a buffer of its decoded size, whatever size it claims. Only multi-part
+  /// files have parts that are copied so.
+  void check_flat_chunks(std::uint64_t table, const PartHeader& part) {
+    const bool tiled = is_tiled(part);
+    const std::uint64_t size_at = tiled ? 20 : 8;
+    const std::uint64_t pixels = tiled ? std::uint64_t((*part.tile)[0]) * (*part.tile)[1]
+                                       : std::uint64_t(part.data->width()) * std::uint64_t(scanlines_per_chunk(*part.compression));
+    for (std::int32_t i = 0; i < *part.chunk_count; ++i) {
+      const auto offset = read_at<std::uint64_t>(table + 8 * std::uint64_t(i));
+      if (offset > size_ || offset + size_at + 4 > size_) fail(fmt::format("chunk {} is at byte {} (file of {} bytes)", i, offset, size_));
+      const auto bytes = read_at<std::int32_t>(offset + size_at);
+      if (bytes < 0 || std::uint64_t(bytes) > pixels * part.bytes_per_pixel)
+        fail(fmt::format("chunk {} claims {} bytes (expected at most the {} of its pixels)", i, bytes, pixels * part.bytes_per_pixel));
     }
   }
 
