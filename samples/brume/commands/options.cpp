@@ -1,11 +1,10 @@
 #include "commands/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "support/error.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <ImathFun.h>
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>
 #include <fmt/format.h>
@@ -12,7 +11,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "exr/planes.hpp"
-#include "support/error.hpp"
 
 namespace brume::tool {
 namespace {
