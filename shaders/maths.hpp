@@ -20,6 +20,7 @@ inline bool is_finite(double x)
 // The files say `float` and R(literal) for the real type at hand, and PURE before each function (which
 // must be inlined: the loops over taps unroll only where the caller's constants reach them).
 #define R(x) real(x)
+#define IN(type) const type &
 #define PURE [[gnu::always_inline]] inline
 
 namespace maths_float {
@@ -35,5 +36,6 @@ using real = double;
 #undef float
 #undef R
 #undef PURE
+#undef IN
 
 }  // namespace brume

@@ -25,7 +25,7 @@ PURE float exponential_density_integral(vec4 term, vec3 direction, float distanc
 }
 
 // P = int_0^D rho dt [m at unit density], in [0, density_limit].
-PURE float density_integral(Medium medium, vec3 direction, float distance)
+PURE float density_integral(IN(Medium) medium, vec3 direction, float distance)
 {
     float p = min(medium.constant * distance, density_limit);
     for (int i = 0; i < medium.term_count; ++i)

@@ -30,7 +30,7 @@ struct Pixel {
     vec3 emitted;
 };
 
-PURE Pixel pixel_in_medium(Medium medium, Camera camera, vec2 pixel, float raw_depth)
+PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth)
 {
     Ray ray = pixel_ray(camera, pixel, raw_depth);
     float p = ray.keep ? R(0.0) : density_integral(medium, ray.direction, ray.distance);
@@ -45,7 +45,7 @@ struct Sources {
 
 // L_sc and, of bright pixels in thin fog, L_ssc (sec. 4.3, radiance separation). W stops where the coarsest level does:
 // the sky's, which has no bound, would drown that of everything near the horizon once it is blurred.
-PURE Sources scattered_sources(Medium medium, Filter f, Pixel pixel, vec3 color)
+PURE Sources scattered_sources(IN(Medium) medium, IN(Filter) f, IN(Pixel) pixel, vec3 color)
 {
     vec3 l = finite_or_zero(color);
     float m = R(0.0);
@@ -67,7 +67,7 @@ PURE ivec2 finer_texel(ivec2 texel, int taps, int i, int j, ivec2 finer_size, in
 
 // (M[k] L[k-1]) * G, and the luminance-weighted mean of W over the same support. Black regions take the plain mean.
 PURE vec4 downsampled_radiance(sampler2D finer, ivec2 finer_size, int finer_row, ivec2 texel, int level, int taps, int masking,
-                          Filter f, vec3 weights)
+                          IN(Filter) f, vec3 weights)
 {
     vec3 sum = vec3(R(0.0));
     float y_sum = R(0.0);
@@ -103,13 +103,13 @@ struct Pyramid {
     int top;
 };
 
-PURE Region level_region(Pyramid pyramid, int level)
+PURE Region level_region(IN(Pyramid) pyramid, int level)
 {
     return level <= 0 ? Region(pyramid.size, 0) : Region(level_size(pyramid.size, level), level_row(pyramid.size, level));
 }
 
 // One level, of which level 0 is in `base`. Coarser than K is K.
-PURE vec4 fetch_level(sampler2D base, sampler2D stack, Pyramid pyramid, int level, vec2 pixel, int mode)
+PURE vec4 fetch_level(sampler2D base, sampler2D stack, IN(Pyramid) pyramid, int level, vec2 pixel, int mode)
 {
     int k = clamp(level, 0, pyramid.top);
     Region region = level_region(pyramid, k);
@@ -120,7 +120,7 @@ PURE vec4 fetch_level(sampler2D base, sampler2D stack, Pyramid pyramid, int leve
 }
 
 // The same of W blurred: level 0 is the fourth channel of the radiance, the others are an image of one channel.
-PURE float fetch_spread_level(sampler2D base, sampler2D stack, Pyramid pyramid, int level, vec2 pixel, int mode)
+PURE float fetch_spread_level(sampler2D base, sampler2D stack, IN(Pyramid) pyramid, int level, vec2 pixel, int mode)
 {
     int k = clamp(level, 0, pyramid.top);
     Region region = level_region(pyramid, k);
@@ -137,7 +137,7 @@ PURE vec4 level_weights(int mode, float f)
 }
 
 // L[k] at a pixel, k in [0, K] fractional.
-PURE vec4 fetch_pyramid(sampler2D base, sampler2D stack, Pyramid pyramid, int mode, vec2 pixel, float level)
+PURE vec4 fetch_pyramid(sampler2D base, sampler2D stack, IN(Pyramid) pyramid, int mode, vec2 pixel, float level)
 {
     int below = int(level);
     vec4 weights = level_weights(mode, level - float(below));
@@ -148,7 +148,7 @@ PURE vec4 fetch_pyramid(sampler2D base, sampler2D stack, Pyramid pyramid, int mo
     return sum;
 }
 
-PURE float fetch_spread(sampler2D base, sampler2D stack, Pyramid pyramid, int mode, vec2 pixel, float level)
+PURE float fetch_spread(sampler2D base, sampler2D stack, IN(Pyramid) pyramid, int mode, vec2 pixel, float level)
 {
     int below = int(level);
     vec4 weights = level_weights(mode, level - float(below));
@@ -163,7 +163,7 @@ PURE float fetch_spread(sampler2D base, sampler2D stack, Pyramid pyramid, int mo
 // "Blurring": the paper blurs P, but in pixels W also depends on the distance, so W is what is blurred). The level of the
 // separated light comes from the luminance-weighted W at the fixed level k_ssc.
 PURE vec3 gathered(sampler2D radiance, sampler2D radiance_stack, sampler2D spread_stack, sampler2D separated,
-              sampler2D separated_stack, Pyramid pyramid, Filter f, vec2 pixel, float spread)
+              sampler2D separated_stack, IN(Pyramid) pyramid, IN(Filter) f, vec2 pixel, float spread)
 {
     float top = float(pyramid.top);
     float level = spread_level(spread, f.scale, top);

@@ -4,6 +4,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // Marks every function of these files: C++ makes them inline.
 #define PURE
 
+// A struct that is only read: C++ passes a reference, where GLSL copies nothing anyway.
+#define IN(type) type
+
 // A literal of the precision that is compiled; C++ needs it spelled out.
 #define R(x) x
 

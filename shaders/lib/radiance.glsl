@@ -5,7 +5,7 @@ PURE float luminance(vec3 weights, vec3 color)
     return dot(weights, color);
 }
 
-PURE vec3 optical_depth(Medium medium, float p)
+PURE vec3 optical_depth(IN(Medium) medium, float p)
 {
     return (medium.scattering + medium.absorption) * p;
 }
@@ -16,13 +16,13 @@ PURE float one_minus_exp(float x)
     return x < R(2.0) ? x * mean_exponential(x) : R(1.0) - exp(-x);
 }
 
-PURE vec3 transmittance(Medium medium, float p)
+PURE vec3 transmittance(IN(Medium) medium, float p)
 {
     return exp(-optical_depth(medium, p));
 }
 
 // The share of the source's radiance that was scattered but not absorbed: e^(-C_a P) (1 - e^(-C_s P)), Iser sec. 4.1.
-PURE vec3 scattered_share(Medium medium, float p)
+PURE vec3 scattered_share(IN(Medium) medium, float p)
 {
     vec3 s = medium.scattering * p;
     return exp(-medium.absorption * p) * vec3(one_minus_exp(s.x), one_minus_exp(s.y), one_minus_exp(s.z));
@@ -30,7 +30,7 @@ PURE vec3 scattered_share(Medium medium, float p)
 
 // The medium's own radiance: int C_e rho e^(-C_t P(t)) dt = C_e P phi(C_t P), exact for any density since only P enters.
 // Emitted light that scatters on its way is not followed. Saturates at C_e / C_t.
-PURE vec3 emitted(Medium medium, float p)
+PURE vec3 emitted(IN(Medium) medium, float p)
 {
     if (medium.emission == vec3(R(0.0)))
         return vec3(R(0.0));

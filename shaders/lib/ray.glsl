@@ -20,7 +20,7 @@ struct Ray {
 };
 
 // Camera-space point of the pixel's ray at planar depth 1; pixel centres lie at half-integers.
-PURE vec3 ray_through(Camera camera, vec2 pixel)
+PURE vec3 ray_through(IN(Camera) camera, vec2 pixel)
 {
     vec2 tangent = (pixel - camera.center) * camera.tangent_scale;
     return vec3(tangent.x, tangent.y, -R(1.0));
@@ -28,7 +28,7 @@ PURE vec3 ray_through(Camera camera, vec2 pixel)
 
 // raw: the depth buffer's value; stretch: |ray_through|, the ray distance of planar depth 1.
 // far_away for whatever counts as far: NaN, infinities, >= far_distance, <= 0 (see BRUME_DEPTH_... in brume.h).
-PURE float ray_distance(Camera camera, float raw, float stretch)
+PURE float ray_distance(IN(Camera) camera, float raw, float stretch)
 {
     if (!is_finite(raw))
         return far_away;
@@ -55,7 +55,7 @@ PURE float ray_distance(Camera camera, float raw, float stretch)
     return camera.depth_kind == depth_ray ? along : along * stretch;
 }
 
-PURE Ray pixel_ray(Camera camera, vec2 pixel, float raw)
+PURE Ray pixel_ray(IN(Camera) camera, vec2 pixel, float raw)
 {
     vec3 through = ray_through(camera, pixel);
     float stretch = length(through);

@@ -8,7 +8,7 @@ const float spread_limit = R(1e6);
 // place of P would give another blur to the same medium written as (2 rho, C / 2), and none at all to a sky behind fog.
 // Eq. 1 with s = P, rearranged to W / s = sqrt(x / (8 + 4/3 sigma_a s x)), x = sigma_s (1 - g) s, which neither divides by
 // zero (sigma_s = 0, g = 1, P = 0) nor overflows. Cross-sections of coloured media enter by their luminance.
-PURE float spread_angle(Medium medium, float p)
+PURE float spread_angle(IN(Medium) medium, float p)
 {
     float s = min(p, R(1e15));
     float x = dot(medium.luminance, medium.scattering) * (R(1.0) - medium.asymmetry) * s;
@@ -17,7 +17,7 @@ PURE float spread_angle(Medium medium, float p)
 }
 
 // The same in pixels, which makes the look independent of resolution and field of view.
-PURE float spread_pixels(Medium medium, Camera camera, float p)
+PURE float spread_pixels(IN(Medium) medium, IN(Camera) camera, float p)
 {
     return min(sqrt(camera.focal.x * camera.focal.y) * spread_angle(medium, p), spread_limit);
 }

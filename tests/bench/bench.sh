@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Every measurement that docs/accuracy.md quotes, into out/bench/. --quick: the paper's default only.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+out=out/bench
+mkdir -p "$out"
+build/release/bin/filter_bench ${1:+"$1"} "$out/filter.json" "$out/filter.md"
+tests/bench/sequence_bench.sh build/release/bin/brume samples/frames "$out"
+build/release/bin/effect_tests --gtest_filter='Truth.*:Paper.*:*ResolutionInvariance*:*WholeFilter*' | grep -v '^\[' | tee "$out/accuracy.txt"
+echo "in $out: filter.json, filter.md, sequence.md, accuracy.txt"
