@@ -9,6 +9,8 @@ configure_package_config_file(cmake/brume-config.cmake.in ${CMAKE_BINARY_DIR}/br
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/brume-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/brume-config.cmake ${CMAKE_BINARY_DIR}/brume-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume COMPONENT development)
+# Relative, so that `cmake --install --prefix` and the .deb may put it anywhere.
+file(RELATIVE_PATH BRUME_PREFIX_FROM_PC /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 configure_file(cmake/brume.pc.in ${CMAKE_BINARY_DIR}/brume.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/brume.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)

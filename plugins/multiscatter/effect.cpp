@@ -185,7 +185,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->width = request_.width;
     state->height = request_.height;
     state->scatters = scatters;
-    brume_status s = need_camera(scatters);
+    brume_status s = dense ? need_camera(scatters) : BRUME_OK;
     if (s)
         return s;
     if (state->parameters.kernel == Kernel::reference) {

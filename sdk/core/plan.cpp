@@ -315,7 +315,9 @@ void brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scen
     for (uint32_t i = 0; i < frame.extra_count; ++i) {
         const auto &extra = frame.extra[i];
         bool scalar = extra.output == BRUME_OUTPUT_BLUR_RADIUS;
-        extras.push_back(backend.begin_output(*extra.image, scalar ? 1 : 4, true));
+        // Effects hold only their output to the limit of halves, so halves of these are not written directly.
+        bool direct = backend.pixel(*extra.image) == BRUME_PIXEL_F32;
+        extras.push_back(backend.begin_output(*extra.image, scalar ? 1 : 4, direct));
         seen.outputs |= extra.output;
         brume_plugin_image *slots[] = {&seen.transmittance, &seen.optical_depth, &seen.scattered, &seen.blur_radius};
         const uint32_t flags[] = {BRUME_OUTPUT_TRANSMITTANCE, BRUME_OUTPUT_OPTICAL_DEPTH, BRUME_OUTPUT_SCATTERED,

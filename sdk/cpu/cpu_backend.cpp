@@ -88,7 +88,7 @@ private:
 class CpuBackend : public Backend {
 public:
     explicit CpuBackend(uint32_t threads)
-        : threads_(threads ? threads : uint32_t(oneapi::tbb::info::default_concurrency())), arena_(int(threads_))
+        : threads_(threads ? threads : most_threads()), arena_(int(std::min(threads_, most_threads())))
     {
     }
 
@@ -201,6 +201,9 @@ public:
     }
 
 private:
+    // An arena of more than the process may use would only make TBB warn.
+    static uint32_t most_threads() { return uint32_t(oneapi::tbb::info::default_concurrency()); }
+
     template <class Function> void for_rows(int height, Function function)
     {
         arena_.execute([&] {

@@ -9,7 +9,8 @@ writeonly uniform image2D target;
 uniform bool spread;
 uniform bool round_to_half;
 
-// The nearest half, ties to even, as a float; by bits, since drivers are free in how their stores round.
+// The nearest half, ties to even, as a float; by bits, since drivers are free in how their stores round. What is finite
+// stays finite: it saturates, as on the CPU.
 float nearest_half(float x)
 {
     uint bits = floatBitsToUint(x);
@@ -18,7 +19,7 @@ float nearest_half(float x)
     if (magnitude >= 0x7f800000u)
         return x;
     if (magnitude >= 0x477ff000u)  // 65520
-        return uintBitsToFloat(sign | 0x7f800000u);
+        return uintBitsToFloat(sign | 0x477fe000u);
     if (magnitude >= 0x38800000u)  // 2^-14, the smallest normal half
         return uintBitsToFloat(sign | ((magnitude + 0xfffu + (magnitude >> 13 & 1u)) & ~0x1fffu));
     float steps = roundEven(uintBitsToFloat(magnitude) * 16777216.0);

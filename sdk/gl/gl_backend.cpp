@@ -161,21 +161,20 @@ std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t chann
     return imported;
 }
 
-// Passes leave the conversion of floats to halves to the driver's stores. Where those do not round to nearest even, as
-// the CPU backend does, passes write floats and finish_output() rounds them.
+// Passes that write a caller's half texture leave the conversion to the driver's stores, if those round to nearest even as
+// the CPU backend does. Else, and wherever an image stands between, they write floats and finish_output() rounds them.
 std::shared_ptr<Image> GlBackend::begin_output(const brume_image &image, int32_t channels, bool direct)
 {
     device_.guard();
-    uint32_t pixel = image.pixel;
     if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
         const HostTexture texture = inspect(image, "output", device_.guard());
         require_writable(texture, channels, "output");
         auto wrapped = wrap(texture);
-        pixel = pixel_of(texture.format);
+        const uint32_t pixel = pixel_of(texture.format);
         if (direct && wrapped->channels == channels && (pixel == BRUME_PIXEL_F32 || direct_half_stores_))
             return wrapped;
     }
-    return pool_->take(image.width, image.height, channels, direct_half_stores_ ? pixel : BRUME_PIXEL_F32);
+    return pool_->take(image.width, image.height, channels, BRUME_PIXEL_F32);
 }
 
 void GlBackend::finish_output(const brume_image &image, Image &written)

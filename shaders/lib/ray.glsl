@@ -38,9 +38,9 @@ PURE float ray_distance(IN(Camera) camera, float raw, float stretch)
             return far_away;
         along = min(camera.metres_per_unit / raw, far_away);
     } else if (camera.depth_kind == depth_normalized) {
-        if (raw >= R(1.0))
+        if (raw < R(0.0) || raw >= R(1.0))
             return far_away;
-        along = camera.depth_range.x + max(raw, R(0.0)) * (camera.depth_range.y - camera.depth_range.x);
+        along = camera.depth_range.x + raw * (camera.depth_range.y - camera.depth_range.x);
     } else if (camera.depth_kind == depth_device) {
         float farther_end = camera.depth_range.x < camera.depth_range.y ? R(0.0) : R(1.0);
         if (raw == farther_end)

@@ -4,9 +4,8 @@ execute_process(COMMAND ${NM} -D --defined-only --format=posix ${LIBRARY}
 string(REGEX MATCHALL "[^\n]+" lines "${output}")
 set(exported "")
 foreach(line IN LISTS lines)
-  # A is the version itself, as the linker script names it; u are statics of the standard library's inline functions,
-  # which are unique in a process whatever the visibility.
-  if(line MATCHES "^([^ @]+)[^ ]* ([^Au])")
+  # A is the version itself, as the linker script names it.
+  if(line MATCHES "^([^ @]+)[^ ]* ([^A])")
     list(APPEND exported ${CMAKE_MATCH_1})
   endif()
 endforeach()

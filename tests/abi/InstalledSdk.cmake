@@ -32,7 +32,7 @@ get_filename_component(library_directory ${package_directory} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${package_directory})
 find_program(PKG_CONFIG pkg-config REQUIRED)
 # The file was configured for another prefix than this one.
-execute_process(COMMAND ${PKG_CONFIG} --define-prefix --cflags --libs brume OUTPUT_VARIABLE flags
+execute_process(COMMAND ${PKG_CONFIG} --cflags --libs brume OUTPUT_VARIABLE flags
   OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 separate_arguments(flags UNIX_COMMAND "${flags}")
 run(${C_COMPILER} -std=c99 -Wall -Wextra -Wpedantic -Werror ${SOURCE}/samples/minimal_c/main.c -o ${WORK}/by_pkg_config

@@ -105,9 +105,8 @@ TEST_P(Copies, ConvertBetweenTypes)
     expect_same_bits(color, back);
 }
 
-TEST(CopiesToHalf, KeepFiniteValuesFinite)
+TEST_P(Copies, ToHalfKeepFiniteValuesFinite)
 {
-    Context context = make_context();
     Scene scene = make_scene(context, nothing[0]);
     Plan plan = make_plan(context, scene, ray_format(8, 8));
     Picture color(8, 8), half(8, 8, {.pixel = BRUME_PIXEL_F16}), depth(8, 8, {.channels = 1});

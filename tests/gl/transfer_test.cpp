@@ -136,7 +136,7 @@ TEST_F(Transfer, FloatsBecomeTheNearestHalves)
         backend->copy(host_image(floats.data(), 64, 16, 4), host_image(halves.data(), 64, 16, 4, BRUME_PIXEL_F16));
     });
     for (size_t i = 0; i < floats.size(); ++i)
-        ASSERT_EQ(halves[i], float_to_half(floats[i])) << floats[i];
+        ASSERT_EQ(halves[i], float_to_half(std::isfinite(floats[i]) ? std::clamp(floats[i], -65504.0f, 65504.0f) : floats[i])) << floats[i];
 
     // An effect's output of halves rounds the same way.
     std::vector<uint16_t> written(floats.size());

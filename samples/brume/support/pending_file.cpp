@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstring>
+#include <ctime>
 #include <system_error>
 
 #include <fcntl.h>
@@ -40,12 +42,43 @@ void release_slot(int slot) {
   slots[std::size_t(slot)].taken.store(false);
 }
 
+// Between a file's making and its name's entry in a slot no signal may end the process: the file would stay. The thread
+// itself takes no signal meanwhile, and remove_pending_files() waits for the others.
+std::atomic<int> makers{0};
+std::atomic<bool> ending{false};
+
+class Making {
+ public:
+  Making() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
+    ++makers;
+    if (ending.load()) {
+      --makers;
+      for (;;) ::pause();
+    }
+  }
+  ~Making() {
+    --makers;
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  Making(const Making&) = delete;
+  Making& operator=(const Making&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 }  // namespace
 
 PendingFile::PendingFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
   static std::atomic<unsigned> serial{0};
   const std::string name = fmt::format(".{}.{}-{}.partial", final_.filename().string(), ::getpid(), serial++);
   temporary_ = final_.parent_path() / name;
+  const Making making;
   const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0) throw FrameError(fmt::format("{}: cannot be written: {}", final_.string(), std::strerror(errno)));
   ::close(descriptor);
@@ -64,6 +97,9 @@ void PendingFile::commit() {
 }
 
 void remove_pending_files() {
+  ending.store(true);
+  const timespec moment{0, 1000000};
+  for (int i = 0; i < 1000 && makers.load() > 0; ++i) ::nanosleep(&moment, nullptr);
   for (const Slot& slot : slots)
     if (slot.live.load()) ::unlink(slot.path);
 }

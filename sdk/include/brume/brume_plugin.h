@@ -116,6 +116,7 @@ typedef struct brume_plugin_frame {
   brume_plugin_image blur_radius;   /* one channel, NULL unless wanted */
 } brume_plugin_frame;
 
+/* A slot that a pass leaves unbound reads as (0, 0, 0, 1) and drops what is written to it. */
 #define BRUME_ACCESS_FETCH 0u  /* sampler2D, nearest: for texelFetch */
 #define BRUME_ACCESS_LINEAR 1u /* sampler2D, bilinear, clamped to the edge */
 #define BRUME_ACCESS_WRITE 2u  /* layout-less `writeonly uniform image2D` */
@@ -180,7 +181,8 @@ typedef struct brume_services {
                                brume_plugin_image *out);
   /* In plan(), GL only: a compute program. The host supplies #version, the workgroup size (8 x 8), `uniform ivec2
      brume_grid` and the lines of `defines`; `#include "file.glsl"` takes from shaders/lib. Compiled once per context
-     for the same texts. Lives as long as the context. */
+     for the same texts. Lives as long as the context. Uniforms are plain floats, ints and their vectors, sampler2D and
+     writeonly image2D; names that begin with brume_ are the host's. */
   brume_status (*compile)(brume_host host, const char *name, const char *source, const char *defines, brume_program *out);
 
   /* In execute(), GL only: one dispatch; later passes see what it wrote. */

@@ -105,7 +105,8 @@ typedef struct brume_context_desc {
   uint32_t backend;             /* BRUME_BACKEND_...; default AUTO */
   uint32_t gl_context;          /* BRUME_GL_OWNED (default) or BORROWED; read by the GL backend only */
   uint32_t gl_state;            /* BRUME_GL_STATE_...; read for borrowed contexts only */
-  uint32_t threads;             /* CPU threads, 0 to 1024; 0 (default): all the process may use. Never changes a bit */
+  uint32_t threads;             /* CPU threads, 0 to 1024; 0 (default), or more than there are: all the process may
+                                   use. Never changes a bit */
   uint32_t log_level;           /* the chattiest level wanted; default BRUME_LOG_WARNING */
   brume_log_callback log;       /* NULL (default): silent */
   void *log_user;
