@@ -50,8 +50,7 @@ void store(const brume_plugin_pixels &p, int x, int y, vec4 value)
     v[3] = value.w;
 }
 
-template <class Function>
-brume_status for_rows(Frame &frame, const char *name, int count, int grain, Function function)
+template <class Function> brume_status for_rows(Frame &frame, const char *name, int count, int grain, Function function)
 {
     struct Call {
         Function &function;
@@ -96,16 +95,15 @@ template <int taps> void downsample_row(const Frame &frame, int level, int y)
     Texture spread = sampler(level == 1 ? frame.radiance : frame.spread_stack);
     for (int x = 0; x < size.x; ++x) {
         ivec2 texel(x, y);
-        store(frame.radiance_stack, x, row + y,
-              downsampled_radiance(radiance, finer_size, finer_row, texel, level, taps, f.masking, f,
-                                   frame.medium.luminance));
+        store(
+            frame.radiance_stack, x, row + y,
+            downsampled_radiance(radiance, finer_size, finer_row, texel, level, taps, f.masking, f, frame.medium.luminance));
         if (frame.spread_stack.data)
             *at(frame.spread_stack, x, row + y) =
                 downsampled_spread(spread, finer_size, finer_row, texel, taps, level == 1 ? 3 : 0);
         if (frame.separated_stack.data)
             store(frame.separated_stack, x, row + y,
-                  downsampled_radiance(separated, finer_size, finer_row, texel, level, taps, 0, f,
-                                       frame.medium.luminance));
+                  downsampled_radiance(separated, finer_size, finer_row, texel, level, taps, 0, f, frame.medium.luminance));
     }
 }
 
@@ -116,8 +114,7 @@ brume_status downsample(Frame &frame)
                                                   : downsample_row<6>;
     for (int level = 1; level <= frame.state.top; ++level) {
         int height = level_size({frame.state.width, frame.state.height}, level).y;
-        brume_status s =
-            for_rows(frame, "downsample", height, 8, [&](int y) { row(frame, level, y); });
+        brume_status s = for_rows(frame, "downsample", height, 8, [&](int y) { row(frame, level, y); });
         if (s)
             return s;
     }
@@ -160,7 +157,12 @@ brume_status compose(Frame &frame)
 brume_status execute_cpu(const brume_services &services, brume_host host, const State &state,
                          const brume_plugin_frame &frame)
 {
-    Frame f{services, host, state, medium_of(*frame.scene), camera_of(*frame.scene), state.parameters.filter,
+    Frame f{services,
+            host,
+            state,
+            medium_of(*frame.scene),
+            camera_of(*frame.scene),
+            state.parameters.filter,
             frame.scene->output_limit};
     f.filter.top = state.top;
     f.filter.separation_level = float(state.parameters.separation_fraction * state.top);

@@ -60,7 +60,7 @@ double Planner::largest_blur() const
     const auto &m = request_.scene->medium;
     if (request_.animated)
         return INFINITY;
-    auto mean = [&](const float (&v)[3]) {
+    auto mean = [&](const float(&v)[3]) {
         return double(v[0]) * m.luminance[0] + double(v[1]) * m.luminance[1] + double(v[2]) * m.luminance[2];
     };
     double kappa = mean(m.scattering) * (1 - m.asymmetry), a = mean(m.absorption);
@@ -78,8 +78,8 @@ brume_status Planner::need_camera(bool scatters)
     auto need = [&](bool condition, uint32_t what, const char *reason) {
         return condition ? services_.need_camera(host_, what, reason) : BRUME_OK;
     };
-    if (brume_status s = need(scatters, BRUME_CAMERA_FIELD_OF_VIEW,
-                              "the blur's width in pixels follows from the field of view"))
+    if (brume_status s =
+            need(scatters, BRUME_CAMERA_FIELD_OF_VIEW, "the blur's width in pixels follows from the field of view"))
         return s;
     if (brume_status s = need(request_.scene->camera.depth_kind != BRUME_DEPTH_RAY, BRUME_CAMERA_FIELD_OF_VIEW,
                               "the depth is planar and the field of view turns it into distance along the ray"))
@@ -149,7 +149,9 @@ brume_status Planner::plan_paper(State &state)
                    separation ? BRUME_OK : drop("separation", "switched off (the default)")});
         if (s)
             return s;
-        double fetches = f.fetch == brume::maths_float::fetch_linear_bilinear ? 2 : f.fetch == brume::maths_float::fetch_linear_bicubic ? 8 : 16;
+        double fetches = f.fetch == brume::maths_float::fetch_linear_bilinear  ? 2
+                         : f.fetch == brume::maths_float::fetch_linear_bicubic ? 8
+                                                                               : 16;
         s = run("compose", "fetches each pixel's level and adds what arrives straight",
                 16 + 4 + 16 + 16 * 1.33 + (blurring ? 4 : 0) + (separation ? 16 * 1.33 : 0),
                 120 + fetches * (30 + (blurring ? 10 : 0) + (separation ? 30 : 0)));
@@ -190,8 +192,9 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     if (state->parameters.kernel == Kernel::reference) {
         if (request_.backend != BRUME_BACKEND_CPU)
-            return services_.fail(host_, BRUME_ERROR_UNSUPPORTED,
-                                  "kernel: reference; expected paper on the GL backend (the reference is exact, in double, on the CPU)");
+            return services_.fail(
+                host_, BRUME_ERROR_UNSUPPORTED,
+                "kernel: reference; expected paper on the GL backend (the reference is exact, in double, on the CPU)");
         s = run("reference", "exact splatting in double", 52, 1e5);
     } else if (!scatters) {
         s = drop("pyramid", "the medium does not scatter: nothing to blur");
@@ -235,12 +238,20 @@ int stack_height(int width, int height, int top)
 BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
 {
     using namespace multiscatter;
-    static const brume_effect effect{
-        sizeof(brume_effect), BRUME_PLUGIN_ABI, "multiscatter",
-        "attenuates the image and blurs it by multiple scattering (Iser 2018)", 100, BRUME_THREADS_SAFE,
-        BRUME_WANTED_WITH_MEDIUM,
-        BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0,
-        uint32_t(parameter_table().size()), parameter_table().data(), plan, execute,
-        [](void *state) { delete static_cast<State *>(state); }};
+    static const brume_effect effect{sizeof(brume_effect),
+                                     BRUME_PLUGIN_ABI,
+                                     "multiscatter",
+                                     "attenuates the image and blurs it by multiple scattering (Iser 2018)",
+                                     100,
+                                     BRUME_THREADS_SAFE,
+                                     BRUME_WANTED_WITH_MEDIUM,
+                                     BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED |
+                                         BRUME_OUTPUT_BLUR_RADIUS,
+                                     0,
+                                     uint32_t(parameter_table().size()),
+                                     parameter_table().data(),
+                                     plan,
+                                     execute,
+                                     [](void *state) { delete static_cast<State *>(state); }};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

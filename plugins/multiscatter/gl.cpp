@@ -147,19 +147,18 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
     if (state.top > 0) {
         if (brume_status s = compile("multiscatter_scatter.comp", "", state.scatter))
             return s;
-        if (brume_status s = compile("multiscatter_downsample.comp",
-                                     define("TAPS", uint32_t(state.parameters.taps)) +
-                                         define("BLURRING", state.spread_stack != nullptr) +
-                                         define("SEPARATION", state.separated != nullptr),
-                                     state.downsample))
+        if (brume_status s =
+                compile("multiscatter_downsample.comp",
+                        define("TAPS", uint32_t(state.parameters.taps)) + define("BLURRING", state.spread_stack != nullptr) +
+                            define("SEPARATION", state.separated != nullptr),
+                        state.downsample))
             return s;
     }
     return compile("multiscatter_compose.comp", define("PYRAMID", state.top > 0) + define("OUTPUTS", outputs),
                    state.compose);
 }
 
-brume_status execute_gl(const brume_services &services, brume_host host, const State &state,
-                        const brume_plugin_frame &frame)
+brume_status execute_gl(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
 {
     return Frame(services, host, state, frame).execute();
 }

@@ -14,7 +14,7 @@ struct Parameters {
     Kernel kernel;
     int taps;  // of the pyramid's kernel: 2, 4 or 6
     int levels;
-    double separation_fraction;  // k_ssc / K
+    double separation_fraction;         // k_ssc / K
     brume::maths_float::Filter filter;  // `top` and `separation_level` are the plan's to set
 };
 

@@ -10,7 +10,7 @@ Medium medium_of(const brume_plugin_scene &scene)
 {
     const auto &m = scene.medium;
     Medium medium{};
-    auto rgb = [](const float (&v)[3]) { return vec3(v[0], v[1], v[2]); };
+    auto rgb = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
     medium.scattering = rgb(m.scattering);
     medium.absorption = rgb(m.absorption);
     medium.emission = rgb(m.emission);
@@ -26,7 +26,7 @@ Medium medium_of(const brume_plugin_scene &scene)
 Camera camera_of(const brume_plugin_scene &scene)
 {
     const auto &c = scene.camera;
-    auto pair = [](const float (&v)[2]) { return vec2(v[0], v[1]); };
+    auto pair = [](const float(&v)[2]) { return vec2(v[0], v[1]); };
     return Camera{pair(c.focal),       pair(c.tangent_scale), pair(c.center), c.depth_kind,     c.sky,
                   pair(c.depth_range), c.far_distance,        c.sky_distance, c.metres_per_unit};
 }

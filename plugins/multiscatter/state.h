@@ -16,10 +16,10 @@ struct State {
     bool scatters = false;  // sigma_s is not zero
 
     // Level 0 of a pyramid and, stacked, its levels 1 to K.
-    brume_plugin_image radiance = nullptr;         // RGB: L_sc, A: W
+    brume_plugin_image radiance = nullptr;  // RGB: L_sc, A: W
     brume_plugin_image radiance_stack = nullptr;
-    brume_plugin_image spread_stack = nullptr;     // W blurred; its level 0 is radiance's A
-    brume_plugin_image separated = nullptr;        // RGB: L_ssc, A: W
+    brume_plugin_image spread_stack = nullptr;  // W blurred; its level 0 is radiance's A
+    brume_plugin_image separated = nullptr;     // RGB: L_ssc, A: W
     brume_plugin_image separated_stack = nullptr;
 
     // GL programs; NULL on the CPU.

@@ -9,8 +9,8 @@
 namespace {
 
 const brume_parameter_info parameters[] = {
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, -20, 20, 0, "exposure", "stops",
-     "Brightens by powers of two", ""},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, -20, 20, 0, "exposure", "stops", "Brightens by powers of two",
+     ""},
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 4, 1, "saturation", "",
      "Distance of the colours from their grey: 0 is grey, 1 leaves them", ""},
 };
@@ -144,8 +144,8 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
     if (request->backend == BRUME_BACKEND_GL)
         if (const brume_status status = services->compile(host, "grade", shader, "", &program))
             return status;
-    *state = new (std::nothrow)
-        Grade{request->width, request->height, float(std::exp2(exposure)), float(saturation), program};
+    *state =
+        new (std::nothrow) Grade{request->width, request->height, float(std::exp2(exposure)), float(saturation), program};
     return *state ? BRUME_OK : services->fail(host, BRUME_ERROR_MEMORY, "no memory for the plan's state");
 }
 

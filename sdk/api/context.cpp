@@ -69,10 +69,10 @@ brume_status brume_context_create(const brume_context_desc *given, brume_context
         expect(out, "out: NULL");
         brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
         if (given)
-            desc = read_struct(given, desc, "brume_context_desc", &brume_context_desc::backend,
-                               &brume_context_desc::gl_context, &brume_context_desc::gl_state,
-                               &brume_context_desc::threads, &brume_context_desc::log_level, &brume_context_desc::log,
-                               &brume_context_desc::log_user, &brume_context_desc::plugin_directory);
+            desc =
+                read_struct(given, desc, "brume_context_desc", &brume_context_desc::backend, &brume_context_desc::gl_context,
+                            &brume_context_desc::gl_state, &brume_context_desc::threads, &brume_context_desc::log_level,
+                            &brume_context_desc::log, &brume_context_desc::log_user, &brume_context_desc::plugin_directory);
         expect(desc.backend <= BRUME_BACKEND_GL, "backend: expected a BRUME_BACKEND_...");
         expect(desc.gl_context <= BRUME_GL_BORROWED, "gl_context: expected BRUME_GL_OWNED or BRUME_GL_BORROWED");
         expect(desc.gl_state <= BRUME_GL_STATE_OWNED, "gl_state: expected a BRUME_GL_STATE_...");
@@ -120,18 +120,17 @@ brume_status brume_effect_get_info(brume_context context, uint32_t index, brume_
     return barrier(context->context.get(), [&] {
         const auto &all = context->context->effects.all();
         if (index >= all.size())
-            throw Error(BRUME_ERROR_ARGUMENT, "index: " + std::to_string(index) + "; there are " +
-                                                  std::to_string(all.size()) + " effects");
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        "index: " + std::to_string(index) + "; there are " + std::to_string(all.size()) + " effects");
         const Effect &effect = all[index];
         write_struct(info,
-                     {0, uint32_t(effect.parameters.size()), effect.name.c_str(), effect.help.c_str(),
-                      effect.file.c_str(), effect.refusal.empty() ? nullptr : effect.refusal.c_str()},
+                     {0, uint32_t(effect.parameters.size()), effect.name.c_str(), effect.help.c_str(), effect.file.c_str(),
+                      effect.refusal.empty() ? nullptr : effect.refusal.c_str()},
                      "brume_effect_info");
     });
 }
 
-brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
-                                      brume_parameter_info *info)
+brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index, brume_parameter_info *info)
 {
     if (!context)
         return barrier(nullptr, [] { expect(false, "context: NULL"); });

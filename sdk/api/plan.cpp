@@ -11,8 +11,8 @@ namespace brume::api {
 brume_camera read_camera(const brume_camera *given, const char *name)
 {
     brume_camera camera = BRUME_CAMERA_INIT;
-    return read_struct(given, camera, name, &brume_camera::given, &brume_camera::vertical_fov,
-                       &brume_camera::pixel_aspect, &brume_camera::center, &brume_camera::camera_to_world);
+    return read_struct(given, camera, name, &brume_camera::given, &brume_camera::vertical_fov, &brume_camera::pixel_aspect,
+                       &brume_camera::center, &brume_camera::camera_to_world);
 }
 
 }  // namespace brume::api
@@ -22,11 +22,11 @@ namespace {
 brume_format read_format(const brume_format *given)
 {
     brume_format format = BRUME_FORMAT_INIT;
-    format = read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height,
-                         &brume_format::display_x, &brume_format::display_y, &brume_format::display_width,
-                         &brume_format::display_height, &brume_format::depth_kind, &brume_format::depth_range,
-                         &brume_format::far_distance, &brume_format::sky, &brume_format::outputs,
-                         &brume_format::sky_distance);
+    format =
+        read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height, &brume_format::display_x,
+                    &brume_format::display_y, &brume_format::display_width, &brume_format::display_height,
+                    &brume_format::depth_kind, &brume_format::depth_range, &brume_format::far_distance, &brume_format::sky,
+                    &brume_format::outputs, &brume_format::sky_distance);
     expect(format.width >= 1 && format.width <= 65536, "brume_format.width: expected 1 to 65536");
     expect(format.height >= 1 && format.height <= 65536, "brume_format.height: expected 1 to 65536");
     expect(format.display_width >= 0 && format.display_height >= 0 &&
@@ -135,8 +135,8 @@ brume_status brume_plan_get_entry(brume_plan handle, uint32_t index, brume_plan_
         const PlanEntry &entry = plan.entries()[index];
         auto measured = plan.measured_ms();
         write_struct(out,
-                     {0, entry.runs ? 1u : 0u, entry.effect.c_str(), entry.name.c_str(), entry.reason.c_str(),
-                      entry.bytes, entry.operations, entry.predicted_ms, measured.empty() ? -1.0 : measured[index]},
+                     {0, entry.runs ? 1u : 0u, entry.effect.c_str(), entry.name.c_str(), entry.reason.c_str(), entry.bytes,
+                      entry.operations, entry.predicted_ms, measured.empty() ? -1.0 : measured[index]},
                      "brume_plan_entry");
     });
 }
@@ -145,9 +145,8 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
 {
     return with_plan(handle, [&](brume_host_t &plan) {
         brume_frame frame = BRUME_FRAME_INIT;
-        frame = read_struct(given, frame, "brume_frame", &brume_frame::extra_count, &brume_frame::color,
-                            &brume_frame::depth, &brume_frame::output, &brume_frame::extra, &brume_frame::camera,
-                            &brume_frame::frame);
+        frame = read_struct(given, frame, "brume_frame", &brume_frame::extra_count, &brume_frame::color, &brume_frame::depth,
+                            &brume_frame::output, &brume_frame::extra, &brume_frame::camera, &brume_frame::frame);
         expect(std::isfinite(frame.frame), "brume_frame.frame: expected a finite number");
         brume_image color = read_image(frame.color, "color");
         brume_image output = read_image(frame.output, "output");
@@ -171,8 +170,8 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
         for (uint32_t i = 0; i < frame.extra_count; ++i) {
             std::string name = "extra[" + std::to_string(i) + "]";
             auto source = reinterpret_cast<const brume_extra_output *>(bytes + i * size_t(frame.extra->struct_size));
-            extras[i] = read_struct(source, brume_extra_output BRUME_EXTRA_OUTPUT_INIT, name.c_str(), &brume_extra_output::output,
-                                    &brume_extra_output::image);
+            extras[i] = read_struct(source, brume_extra_output BRUME_EXTRA_OUTPUT_INIT, name.c_str(),
+                                    &brume_extra_output::output, &brume_extra_output::image);
             images[i] = read_image(extras[i].image, (name + ".image").c_str());
             extras[i].image = &images[i];
         }

@@ -87,8 +87,8 @@ brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *give
         }
         brume_medium medium = BRUME_MEDIUM_INIT;
         medium = read_struct(given, medium, "brume_medium", &brume_medium::term_count, &brume_medium::scattering,
-                             &brume_medium::absorption, &brume_medium::emission, &brume_medium::g,
-                             &brume_medium::visibility, &brume_medium::droplet_diameter, &brume_medium::terms);
+                             &brume_medium::absorption, &brume_medium::emission, &brume_medium::g, &brume_medium::visibility,
+                             &brume_medium::droplet_diameter, &brume_medium::terms);
         Medium result;
         result.scattering = numbers(medium.scattering);
         result.absorption = numbers(medium.absorption);

@@ -46,13 +46,13 @@ std::shared_ptr<Context> create_context(const brume_context_desc &desc)
     std::vector<std::string> directories{own_plugin_directory()};
     if (desc.plugin_directory) {
         if (!std::filesystem::path(desc.plugin_directory).is_absolute())
-            throw Error(BRUME_ERROR_ARGUMENT, "plugin_directory: \"" + std::string(desc.plugin_directory) +
-                                                  "\"; expected an absolute path");
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        "plugin_directory: \"" + std::string(desc.plugin_directory) + "\"; expected an absolute path");
         directories.emplace_back(desc.plugin_directory);
     }
     context->effects.load(directories, context->log);
-    context->log(BRUME_LOG_INFO, "backend " + context->device + ", " +
-                                     std::to_string(context->effects.all().size()) + " effects");
+    context->log(BRUME_LOG_INFO,
+                 "backend " + context->device + ", " + std::to_string(context->effects.all().size()) + " effects");
     return context;
 }
 

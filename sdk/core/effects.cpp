@@ -44,8 +44,8 @@ void EffectRegistry::load(const std::vector<std::string> &directories, const Log
                 return effect.refusal.empty() && other.refusal.empty() && other.name == effect.name;
             });
             if (earlier != effects_.end())
-                effect = refused_plugin(file, fmt::format("the effect {} is there already, from {}",
-                                                          in_quotes(effect.name), earlier->file));
+                effect = refused_plugin(
+                    file, fmt::format("the effect {} is there already, from {}", in_quotes(effect.name), earlier->file));
             if (effect.refusal.empty())
                 log(BRUME_LOG_DEBUG, fmt::format("effect {} from {}", in_quotes(effect.name), file));
             else
@@ -67,8 +67,8 @@ const Effect &EffectRegistry::find(const std::string &name) const
     }
     for (const Effect &effect : effects_)
         if (!effect.refusal.empty() && fs::path(effect.file).stem() == name)
-            throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("no effect {}: the plugin {} was refused: {}",
-                                                           in_quotes(name), effect.file, effect.refusal));
+            throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("no effect {}: the plugin {} was refused: {}", in_quotes(name),
+                                                           effect.file, effect.refusal));
     throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("no effect {}{}", in_quotes(name), did_you_mean(name, names)));
 }
 

@@ -79,8 +79,7 @@ void JsonNode::allow_only(const std::vector<std::string> &keys) const
     for (const JsonMember &member : object()) {
         if (std::find(keys.begin(), keys.end(), member.key) != keys.end())
             continue;
-        fail_at(member.position,
-                fmt::format("unknown key {}{}", in_quotes(member.key), did_you_mean(member.key, keys)));
+        fail_at(member.position, fmt::format("unknown key {}{}", in_quotes(member.key), did_you_mean(member.key, keys)));
     }
 }
 

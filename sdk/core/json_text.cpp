@@ -192,8 +192,7 @@ std::string JsonValue::describe() const
 JsonValue parse_json(const std::string &text, const std::string &name)
 {
     if (text.size() > largest_text)
-        throw Error(BRUME_ERROR_SCENE,
-                    fmt::format("{}: {} bytes; expected at most {}", name, text.size(), largest_text));
+        throw Error(BRUME_ERROR_SCENE, fmt::format("{}: {} bytes; expected at most {}", name, text.size(), largest_text));
     // The parser takes a NUL for the end and would not see what follows.
     if (const size_t nul = text.find('\0'); nul != std::string::npos) {
         const TextPosition position = Cursor(text).at(nul);

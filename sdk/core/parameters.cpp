@@ -32,8 +32,8 @@ size_t edit_distance(const std::string &a, const std::string &b)
 
 [[noreturn]] void reject(const Effect &effect, const Parameter &parameter, const std::string &value)
 {
-    throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.{}: {}; expected {}", effect.name, parameter.name, value,
-                                                  parameter_expectation(parameter)));
+    throw Error(BRUME_ERROR_ARGUMENT,
+                fmt::format("{}.{}: {}; expected {}", effect.name, parameter.name, value, parameter_expectation(parameter)));
 }
 
 }  // namespace

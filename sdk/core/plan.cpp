@@ -43,8 +43,8 @@ bool same_memory(const brume_image &a, const brume_image &b)
 bool same_layout(const brume_image &a, const brume_image &b)
 {
     HostPixels pa(a), pb(b);
-    return pa.data == pb.data && pa.pixel == pb.pixel && pa.channels == pb.channels &&
-           pa.pixel_stride == pb.pixel_stride && pa.row_stride == pb.row_stride;
+    return pa.data == pb.data && pa.pixel == pb.pixel && pa.channels == pb.channels && pa.pixel_stride == pb.pixel_stride &&
+           pa.row_stride == pb.row_stride;
 }
 
 // Contexts are independent, so a plugin that is not thread-safe may be reached from two of them at once.
@@ -166,8 +166,8 @@ void brume_host_t::plan_effects()
     }
     Rates rates = nominal_rates(*context_->backend);
     for (auto &entry : entries_)
-        entry.predicted_ms = std::max(double(entry.bytes) / rates.bytes_per_ms,
-                                      double(entry.operations) / rates.operations_per_ms);
+        entry.predicted_ms =
+            std::max(double(entry.bytes) / rates.bytes_per_ms, double(entry.operations) / rates.operations_per_ms);
 }
 
 void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene)
@@ -389,8 +389,7 @@ void brume_host_t::need_camera(uint32_t needs, const std::string &reason)
 brume_plugin_image brume_host_t::create_image(int32_t width, int32_t height, int32_t channels)
 {
     int32_t largest = context_->backend->largest_size();
-    if (width < 1 || height < 1 || width > largest || height > largest ||
-        (channels != 1 && channels != 2 && channels != 4))
+    if (width < 1 || height < 1 || width > largest || height > largest || (channels != 1 && channels != 2 && channels != 4))
         throw Error(BRUME_ERROR_ARGUMENT, std::to_string(width) + " x " + std::to_string(height) + " x " +
                                               std::to_string(channels) + "; expected sides from 1 to " +
                                               std::to_string(largest) + " and 1, 2 or 4 channels");
@@ -410,8 +409,8 @@ int brume_host_t::entry_index(const char *name) const
     for (size_t i = 0; i < entries_.size() && name && current_; ++i)
         if (entries_[i].runs && entries_[i].name == name && entries_[i].effect == current_->effect->name)
             return int(i);
-    throw Error(BRUME_ERROR_PLUGIN, std::string("pass \"") + (name ? name : "NULL") +
-                                        "\" is not among the running entries of the plan");
+    throw Error(BRUME_ERROR_PLUGIN,
+                std::string("pass \"") + (name ? name : "NULL") + "\" is not among the running entries of the plan");
 }
 
 void brume_host_t::run(const brume_plugin_pass &pass)

@@ -76,7 +76,7 @@ private:
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;
     uint64_t image_bytes_ = 0;
-    const brume::PlannedEffect *current_ = nullptr;    // whose callback is running
+    const brume::PlannedEffect *current_ = nullptr;  // whose callback is running
     const brume_plugin_scene *current_scene_ = nullptr;
     std::string failure_;
 };

@@ -28,8 +28,7 @@ struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-template <class... Arguments>
-[[noreturn]] void refuse(fmt::format_string<Arguments...> format, Arguments &&...arguments)
+template <class... Arguments> [[noreturn]] void refuse(fmt::format_string<Arguments...> format, Arguments &&...arguments)
 {
     throw Refusal(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
@@ -134,8 +133,7 @@ Parameter copy_parameter(const brume_parameter_info &info, const std::string &in
         refuse("{}.type: {}; expected a BRUME_PARAMETER_... of this library", what, info.type);
     }
     if (info.type != BRUME_PARAMETER_CHOICE && !parameter.choices_text.empty())
-        refuse("{}.choices: {}; expected \"\" for a parameter that is no choice", what,
-               in_quotes(parameter.choices_text));
+        refuse("{}.choices: {}; expected \"\" for a parameter that is no choice", what, in_quotes(parameter.choices_text));
     check_numbers(parameter, what);
     return parameter;
 }

@@ -31,8 +31,7 @@ bool always_zero(const Number &number)
 
 bool animated(const DensityTerm &term)
 {
-    return term.value.animated() || term.falloff.animated() || any_animated(term.direction) ||
-           any_animated(term.origin);
+    return term.value.animated() || term.falloff.animated() || any_animated(term.direction) || any_animated(term.origin);
 }
 
 bool animated(const Medium &medium)
@@ -187,8 +186,7 @@ bool Scene::animated() const
 
 bool pose_matters(const Scene &scene)
 {
-    return scene.medium &&
-           std::any_of(scene.medium->density.begin(), scene.medium->density.end(), [](const auto &term) {
+    return scene.medium && std::any_of(scene.medium->density.begin(), scene.medium->density.end(), [](const auto &term) {
                return term.type == BRUME_DENSITY_EXPONENTIAL && !always_zero(term.falloff) && !always_zero(term.value);
            });
 }
@@ -217,10 +215,10 @@ void evaluate_medium(const Scene &scene, double frame, const std::array<double, 
         out.absorption[i] = float(absorption[i]);
         out.emission[i] = float(emission[i]);
     }
-    out.asymmetry = float(medium.droplet_diameter
-                              ? droplet_mean_cosine(values.get(*medium.droplet_diameter, ranges::droplet_diameter,
-                                                               "medium.droplet_diameter"))
-                              : values.get(medium.g, ranges::asymmetry, "medium.g"));
+    out.asymmetry = float(
+        medium.droplet_diameter
+            ? droplet_mean_cosine(values.get(*medium.droplet_diameter, ranges::droplet_diameter, "medium.droplet_diameter"))
+            : values.get(medium.g, ranges::asymmetry, "medium.g"));
     evaluate_density(scene, values, camera_to_world, out);
 }
 

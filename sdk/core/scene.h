@@ -26,22 +26,22 @@ using Number3 = std::array<Number, 3>;
 struct DensityTerm {
     uint32_t type = BRUME_DENSITY_CONSTANT;
     Number value = 1.0;
-    Number falloff = 0.0;                         // [1/m]
+    Number falloff = 0.0;  // [1/m]
     Number3 direction{Number(0.0), Number(1.0), Number(0.0)};
-    Number3 origin{};                             // scene units
+    Number3 origin{};  // scene units
 };
 
 struct Medium {
     Number3 scattering{}, absorption{}, emission{};  // [1/m], [1/m], [radiance/m], at unit density
     Number g = 0.0;
-    std::optional<Number> visibility;                // [m]
-    std::optional<Number> droplet_diameter;          // [um]
-    std::vector<DensityTerm> density;                // empty: constant 1
+    std::optional<Number> visibility;        // [m]
+    std::optional<Number> droplet_diameter;  // [um]
+    std::vector<DensityTerm> density;        // empty: constant 1
 };
 
 struct Camera {
-    std::optional<Number> vertical_fov;              // [rad]
-    std::optional<Number> horizontal_fov;            // [rad]; of the display window, used where vertical_fov is absent
+    std::optional<Number> vertical_fov;    // [rad]
+    std::optional<Number> horizontal_fov;  // [rad]; of the display window, used where vertical_fov is absent
     Number pixel_aspect = 1.0;
     std::array<Number, 2> center{Number(0.5), Number(0.5)};
     std::optional<std::array<Number, 16>> camera_to_world;  // row-major
@@ -49,7 +49,7 @@ struct Camera {
 
 struct EffectSettings {
     std::string name;
-    std::map<std::string, double> parameters;        // only those set; choices by index
+    std::map<std::string, double> parameters;  // only those set; choices by index
 };
 
 struct Scene {
@@ -57,8 +57,8 @@ struct Scene {
     std::array<double, 3> luminance{0.2126, 0.7152, 0.0722};
     std::optional<Medium> medium;
     Camera camera;
-    size_t light_count = 0;                          // lights that the file has; no effect reads them yet
-    std::vector<EffectSettings> effects;             // empty: what the content needs
+    size_t light_count = 0;               // lights that the file has; no effect reads them yet
+    std::vector<EffectSettings> effects;  // empty: what the content needs
 
     bool animated() const;
 };

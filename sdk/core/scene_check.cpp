@@ -50,8 +50,8 @@ void check_medium(const Medium &medium)
             throw Error(BRUME_ERROR_ARGUMENT, name + ".direction: (0, 0, 0); expected a direction");
     }
     if (exponential > BRUME_MAX_DENSITY_TERMS)
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.terms: {} exponential ones; expected at most {}",
-                                                      exponential, BRUME_MAX_DENSITY_TERMS));
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.terms: {} exponential ones; expected at most {}", exponential,
+                                                      BRUME_MAX_DENSITY_TERMS));
 }
 
 }  // namespace brume

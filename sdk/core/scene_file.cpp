@@ -189,8 +189,7 @@ std::vector<DensityTerm> read_density(const JsonNode &node)
     for (size_t i = 0; i < count; ++i) {
         terms.push_back(read_density_term(node.item(i)));
         if (terms.back().type == BRUME_DENSITY_EXPONENTIAL && ++exponential > BRUME_MAX_DENSITY_TERMS)
-            node.item(i).fail(
-                fmt::format("exponential term {}; expected at most {}", exponential, BRUME_MAX_DENSITY_TERMS));
+            node.item(i).fail(fmt::format("exponential term {}; expected at most {}", exponential, BRUME_MAX_DENSITY_TERMS));
     }
     return terms;
 }

@@ -104,14 +104,14 @@ Json density()
 
 Json medium()
 {
-    Json schema = object_of({{"scattering", described(reference("rgb"), "At unit density [1/m]")},
-                             {"absorption", described(reference("rgb"), "At unit density [1/m]")},
-                             {"emission", described(reference("rgb"), "Radiance per metre at unit density")},
-                             {"g", described(number(ranges::asymmetry), "Mean cosine of the phase function")},
-                             {"visibility", described(number(ranges::positive),
-                                                      "[m]; instead of scattering: 3.912 / visibility - absorption")},
-                             {"droplet_diameter", described(number(ranges::droplet_diameter), "[um]; instead of g")},
-                             {"density", density()}});
+    Json schema = object_of(
+        {{"scattering", described(reference("rgb"), "At unit density [1/m]")},
+         {"absorption", described(reference("rgb"), "At unit density [1/m]")},
+         {"emission", described(reference("rgb"), "Radiance per metre at unit density")},
+         {"g", described(number(ranges::asymmetry), "Mean cosine of the phase function")},
+         {"visibility", described(number(ranges::positive), "[m]; instead of scattering: 3.912 / visibility - absorption")},
+         {"droplet_diameter", described(number(ranges::droplet_diameter), "[um]; instead of g")},
+         {"density", density()}});
     schema["allOf"] = Json::array({not_together("scattering", "visibility"), not_together("g", "droplet_diameter")});
     return schema;
 }
@@ -121,9 +121,8 @@ Json lights()
     const Json position = reference("vector"), direction = reference("direction"), intensity = reference("rgb"),
                radius = reference("not_negative"), angle = number(ranges::spot_angle);
     const Json kinds = Json::array(
-        {object_of(
-             {{"type", {{"const", "point"}}}, {"position", position}, {"intensity", intensity}, {"radius", radius}},
-             {"type", "position", "intensity"}),
+        {object_of({{"type", {{"const", "point"}}}, {"position", position}, {"intensity", intensity}, {"radius", radius}},
+                   {"type", "position", "intensity"}),
          object_of({{"type", {{"const", "spot"}}},
                     {"position", position},
                     {"direction", direction},

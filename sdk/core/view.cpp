@@ -18,8 +18,7 @@ DisplayWindow display_window(const brume_format &format)
 {
     if (format.display_width == 0)
         return {0, 0, double(format.width), double(format.height)};
-    return {double(format.display_x), double(format.display_y), double(format.display_width),
-            double(format.display_height)};
+    return {double(format.display_x), double(format.display_y), double(format.display_width), double(format.display_height)};
 }
 
 }  // namespace
@@ -33,10 +32,9 @@ View view_of(const Scene &scene, const brume_camera *frame_camera, double frame,
         view.given |= BRUME_CAMERA_FIELD_OF_VIEW;
         view.pixel_aspect = camera.pixel_aspect.at(frame);
         view.center = {camera.center[0].at(frame), camera.center[1].at(frame)};
-        view.vertical_fov = camera.vertical_fov
-                                ? camera.vertical_fov->at(frame)
-                                : 2 * std::atan(std::tan(camera.horizontal_fov->at(frame) / 2) * window.height /
-                                                (window.width * view.pixel_aspect));
+        view.vertical_fov = camera.vertical_fov ? camera.vertical_fov->at(frame)
+                                                : 2 * std::atan(std::tan(camera.horizontal_fov->at(frame) / 2) *
+                                                                window.height / (window.width * view.pixel_aspect));
     }
     if (camera.camera_to_world) {
         view.given |= BRUME_CAMERA_POSE;
@@ -56,8 +54,7 @@ View view_of(const Scene &scene, const brume_camera *frame_camera, double frame,
     return view;
 }
 
-void fill_camera(const Scene &scene, const View &view, const brume_format &format, uint32_t origin,
-                 brume_plugin_camera &out)
+void fill_camera(const Scene &scene, const View &view, const brume_format &format, uint32_t origin, brume_plugin_camera &out)
 {
     auto window = display_window(format);
     // Without a field of view nothing reads these (the plan's needs are checked first); any finite one will do.
@@ -113,8 +110,8 @@ void check_camera(const brume_camera &camera)
                     refuse("camera_to_world: product of columns " + std::to_string(i) + " and " + std::to_string(j), dot,
                            "a rigid transform (orthonormal columns)");
             }
-        double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-                             m[2] * (m[4] * m[9] - m[5] * m[8]);
+        double determinant =
+            m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
         if (determinant < 0)
             refuse("camera_to_world: determinant", determinant, "1 (a rigid transform, not a mirroring one)");
         for (int i = 12; i < 16; ++i)

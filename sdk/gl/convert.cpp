@@ -59,8 +59,7 @@ void Converter::store(const GlImage &from, const GlImage &to, const Samplers &sa
     run(from, to, false, samplers, guard);
 }
 
-void Converter::run(const GlImage &from, const GlImage &to, bool round_to_half, const Samplers &samplers,
-                    StateGuard &guard)
+void Converter::run(const GlImage &from, const GlImage &to, bool round_to_half, const Samplers &samplers, StateGuard &guard)
 {
     // Bindings are not const because other passes write through them; this one reads `from`.
     const brume_plugin_binding bindings[] = {

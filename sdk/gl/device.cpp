@@ -48,12 +48,10 @@ void Device::invoke(const std::function<void()> &work)
         return thread_->invoke([&] { surround(work); });
     const CurrentContext current = current_context();
     if (!current)
-        throw Error(BRUME_ERROR_GL,
-                    "no OpenGL context is current on the calling thread; expected the one that the brume "
-                    "context was created in");
+        throw Error(BRUME_ERROR_GL, "no OpenGL context is current on the calling thread; expected the one that the brume "
+                                    "context was created in");
     if (current != *borrowed_)
-        throw Error(BRUME_ERROR_GL,
-                    "another OpenGL context is current than the one that the brume context was created in");
+        throw Error(BRUME_ERROR_GL, "another OpenGL context is current than the one that the brume context was created in");
     surround(work);
 }
 

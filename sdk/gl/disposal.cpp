@@ -29,9 +29,15 @@ void Disposal::close()
 void Disposal::destroy(Kind kind, GLuint name)
 {
     switch (kind) {
-    case Kind::texture: glDeleteTextures(1, &name); break;
-    case Kind::program: glDeleteProgram(name); break;
-    case Kind::query: glDeleteQueries(1, &name); break;
+    case Kind::texture:
+        glDeleteTextures(1, &name);
+        break;
+    case Kind::program:
+        glDeleteProgram(name);
+        break;
+    case Kind::query:
+        glDeleteQueries(1, &name);
+        break;
     }
 }
 

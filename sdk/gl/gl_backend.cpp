@@ -83,9 +83,8 @@ GlBackend::GlBackend(const GlOptions &options, const Log &log)
         converter_.emplace(disposal_);
         direct_half_stores_ = stores_round_to_nearest();
     });
-    log_(BRUME_LOG_INFO,
-         "OpenGL on " + device_.renderer() +
-             (direct_half_stores_ ? "" : "; its half stores do not round to nearest: a pass rounds for it"));
+    log_(BRUME_LOG_INFO, "OpenGL on " + device_.renderer() +
+                             (direct_half_stores_ ? "" : "; its half stores do not round to nearest: a pass rounds for it"));
 }
 
 GlBackend::~GlBackend()
@@ -109,8 +108,7 @@ std::shared_ptr<Image> GlBackend::create_image(int32_t width, int32_t height, in
     return pool_->take(width, height, channels, pixel);
 }
 
-std::shared_ptr<Program> GlBackend::compile(const std::string &name, const std::string &source,
-                                            const std::string &defines)
+std::shared_ptr<Program> GlBackend::compile(const std::string &name, const std::string &source, const std::string &defines)
 {
     device_.guard();
     std::shared_ptr<GlProgram> &program = programs_[{name, source, defines}];
@@ -123,18 +121,18 @@ void GlBackend::check(const brume_image &image, const char *what, bool writable)
 {
     const std::string label = what;
     if (image.width > largest_size() || image.height > largest_size())
-        throw Error(BRUME_ERROR_UNSUPPORTED,
-                    label + ": " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                        "; this device's textures have at most " + std::to_string(largest_size()) + " pixels a side");
+        throw Error(BRUME_ERROR_UNSUPPORTED, label + ": " + std::to_string(image.width) + " x " +
+                                                 std::to_string(image.height) + "; this device's textures have at most " +
+                                                 std::to_string(largest_size()) + " pixels a side");
     if (image.kind == BRUME_IMAGE_HOST) {
         if (!image.data)
             throw Error(BRUME_ERROR_ARGUMENT, label + ".data: NULL");
         return;
     }
     if (!device_.borrowed())
-        throw Error(BRUME_ERROR_UNSUPPORTED,
-                    label + ": a GL texture was given to a context of BRUME_GL_OWNED; expected host "
-                            "memory, or a context of BRUME_GL_BORROWED");
+        throw Error(BRUME_ERROR_UNSUPPORTED, label +
+                                                 ": a GL texture was given to a context of BRUME_GL_OWNED; expected host "
+                                                 "memory, or a context of BRUME_GL_BORROWED");
     device_.guard();
     const HostTexture texture = inspect(image, label, device_.guard());
     if (writable)
@@ -144,8 +142,7 @@ void GlBackend::check(const brume_image &image, const char *what, bool writable)
 uint32_t GlBackend::pixel(const brume_image &image)
 {
     device_.guard();
-    return image.kind == BRUME_IMAGE_GL_TEXTURE ? pixel_of(inspect(image, "output", device_.guard()).format)
-                                                : image.pixel;
+    return image.kind == BRUME_IMAGE_GL_TEXTURE ? pixel_of(inspect(image, "output", device_.guard()).format) : image.pixel;
 }
 
 std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t channels)

@@ -33,23 +33,40 @@ std::string hex(GLenum value)
 std::string format_text(GLenum format)
 {
     switch (format) {
-    case GL_R16F: return "GL_R16F";
-    case GL_R32F: return "GL_R32F";
-    case GL_RG16F: return "GL_RG16F";
-    case GL_RG32F: return "GL_RG32F";
-    case GL_RGB16F: return "GL_RGB16F";
-    case GL_RGB32F: return "GL_RGB32F";
-    case GL_RGBA16F: return "GL_RGBA16F";
-    case GL_RGBA32F: return "GL_RGBA32F";
-    case GL_R8: return "GL_R8";
-    case GL_RGBA8: return "GL_RGBA8";
-    case GL_R11F_G11F_B10F: return "GL_R11F_G11F_B10F";
-    case GL_DEPTH_COMPONENT16: return "GL_DEPTH_COMPONENT16";
-    case GL_DEPTH_COMPONENT24: return "GL_DEPTH_COMPONENT24";
-    case GL_DEPTH_COMPONENT32F: return "GL_DEPTH_COMPONENT32F";
-    case GL_DEPTH24_STENCIL8: return "GL_DEPTH24_STENCIL8";
-    case GL_DEPTH32F_STENCIL8: return "GL_DEPTH32F_STENCIL8";
-    default: return "internal format " + hex(format);
+    case GL_R16F:
+        return "GL_R16F";
+    case GL_R32F:
+        return "GL_R32F";
+    case GL_RG16F:
+        return "GL_RG16F";
+    case GL_RG32F:
+        return "GL_RG32F";
+    case GL_RGB16F:
+        return "GL_RGB16F";
+    case GL_RGB32F:
+        return "GL_RGB32F";
+    case GL_RGBA16F:
+        return "GL_RGBA16F";
+    case GL_RGBA32F:
+        return "GL_RGBA32F";
+    case GL_R8:
+        return "GL_R8";
+    case GL_RGBA8:
+        return "GL_RGBA8";
+    case GL_R11F_G11F_B10F:
+        return "GL_R11F_G11F_B10F";
+    case GL_DEPTH_COMPONENT16:
+        return "GL_DEPTH_COMPONENT16";
+    case GL_DEPTH_COMPONENT24:
+        return "GL_DEPTH_COMPONENT24";
+    case GL_DEPTH_COMPONENT32F:
+        return "GL_DEPTH_COMPONENT32F";
+    case GL_DEPTH24_STENCIL8:
+        return "GL_DEPTH24_STENCIL8";
+    case GL_DEPTH32F_STENCIL8:
+        return "GL_DEPTH32F_STENCIL8";
+    default:
+        return "internal format " + hex(format);
     }
 }
 

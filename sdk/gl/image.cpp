@@ -74,10 +74,9 @@ std::shared_ptr<GlImage> ImagePool::take(int32_t width, int32_t height, int32_t 
         image = allocate(width, height, channels, format);
     }
     if (!image)
-        throw Error(BRUME_ERROR_MEMORY, "no device memory for an image of " + size + " " + format_of(format).text +
-                                            "; " + std::to_string(bytes_ >> 20) + " MiB are in use");
-    return {image.release(),
-            [pool = shared_from_this()](GlImage *back) { pool->put_back(std::unique_ptr<GlImage>(back)); }};
+        throw Error(BRUME_ERROR_MEMORY, "no device memory for an image of " + size + " " + format_of(format).text + "; " +
+                                            std::to_string(bytes_ >> 20) + " MiB are in use");
+    return {image.release(), [pool = shared_from_this()](GlImage *back) { pool->put_back(std::unique_ptr<GlImage>(back)); }};
 }
 
 void ImagePool::age()
@@ -126,8 +125,8 @@ std::unique_ptr<GlImage> ImagePool::allocate(int32_t width, int32_t height, int3
     if (error == GL_OUT_OF_MEMORY)
         return nullptr;
     if (error != GL_NO_ERROR)
-        throw Error(BRUME_ERROR_GL, "glTextureStorage2D, " + std::to_string(width) + " x " + std::to_string(height) +
-                                        " " + layout.text + ": OpenGL reports " + error_name(error));
+        throw Error(BRUME_ERROR_GL, "glTextureStorage2D, " + std::to_string(width) + " x " + std::to_string(height) + " " +
+                                        layout.text + ": OpenGL reports " + error_name(error));
 
     image->width = width;
     image->height = height;

@@ -41,8 +41,7 @@ private:
 class Dispatch {
 public:
     Dispatch(const brume_plugin_pass &pass, const Samplers &samplers, StateGuard &guard)
-        : pass_(pass), samplers_(samplers), guard_(guard),
-          name_("pass \"" + std::string(pass.name ? pass.name : "") + "\"")
+        : pass_(pass), samplers_(samplers), guard_(guard), name_("pass \"" + std::string(pass.name ? pass.name : "") + "\"")
     {
     }
 
@@ -57,15 +56,11 @@ public:
         glUseProgram(program.id());
         glDispatchCompute(GLuint((pass_.width + group_side - 1) / group_side),
                           GLuint((pass_.height + group_side - 1) / group_side), 1);
-        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                        GL_TEXTURE_UPDATE_BARRIER_BIT);
+        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     }
 
 private:
-    [[noreturn]] void refuse(const std::string &problem) const
-    {
-        throw Error(BRUME_ERROR_ARGUMENT, name_ + ": " + problem);
-    }
+    [[noreturn]] void refuse(const std::string &problem) const { throw Error(BRUME_ERROR_ARGUMENT, name_ + ": " + problem); }
 
     void check() const
     {
@@ -193,8 +188,7 @@ void Samplers::destroy()
     glDeleteSamplers(2, names);
 }
 
-void run_pass(const brume_plugin_pass &pass, const brume_plugin_scene &scene, const Samplers &samplers,
-              StateGuard &guard)
+void run_pass(const brume_plugin_pass &pass, const brume_plugin_scene &scene, const Samplers &samplers, StateGuard &guard)
 {
     Dispatch(pass, samplers, guard).run(scene);
 }

@@ -18,7 +18,6 @@ struct Samplers {
 
 // Checks and dispatches one pass; later passes, transfers and copies see what it wrote.
 // Throws Error(BRUME_ERROR_ARGUMENT) that names pass, item and expectation.
-void run_pass(const brume_plugin_pass &pass, const brume_plugin_scene &scene, const Samplers &samplers,
-              StateGuard &guard);
+void run_pass(const brume_plugin_pass &pass, const brume_plugin_scene &scene, const Samplers &samplers, StateGuard &guard);
 
 }  // namespace brume::gl

@@ -138,23 +138,39 @@ void GlProgram::set(const char *name, uint32_t type, uint32_t components, uint32
     const Uniform &uniform = found->second;
     const Type &declared = *find_type(uniform.type);
     if (declared.type != type || declared.components != components)
-        throw Error(BRUME_ERROR_ARGUMENT,
-                    "program \"" + name_ + "\": uniform " + name + " is " + declared.text + "; the pass gives " +
-                        std::to_string(components) + (type == BRUME_UNIFORM_FLOAT ? " float" : " int") + " components");
+        throw Error(BRUME_ERROR_ARGUMENT, "program \"" + name_ + "\": uniform " + name + " is " + declared.text +
+                                              "; the pass gives " + std::to_string(components) +
+                                              (type == BRUME_UNIFORM_FLOAT ? " float" : " int") + " components");
     // Compilers shorten arrays to what is used.
     const GLsizei n = std::min(GLsizei(count), GLsizei(uniform.size));
     const auto *floats = static_cast<const GLfloat *>(data);
     const auto *ints = static_cast<const GLint *>(data);
     switch (uniform.type) {
-    case GL_FLOAT: glProgramUniform1fv(id_, uniform.location, n, floats); break;
-    case GL_FLOAT_VEC2: glProgramUniform2fv(id_, uniform.location, n, floats); break;
-    case GL_FLOAT_VEC3: glProgramUniform3fv(id_, uniform.location, n, floats); break;
-    case GL_FLOAT_VEC4: glProgramUniform4fv(id_, uniform.location, n, floats); break;
+    case GL_FLOAT:
+        glProgramUniform1fv(id_, uniform.location, n, floats);
+        break;
+    case GL_FLOAT_VEC2:
+        glProgramUniform2fv(id_, uniform.location, n, floats);
+        break;
+    case GL_FLOAT_VEC3:
+        glProgramUniform3fv(id_, uniform.location, n, floats);
+        break;
+    case GL_FLOAT_VEC4:
+        glProgramUniform4fv(id_, uniform.location, n, floats);
+        break;
     case GL_BOOL:
-    case GL_INT: glProgramUniform1iv(id_, uniform.location, n, ints); break;
-    case GL_INT_VEC2: glProgramUniform2iv(id_, uniform.location, n, ints); break;
-    case GL_INT_VEC3: glProgramUniform3iv(id_, uniform.location, n, ints); break;
-    case GL_INT_VEC4: glProgramUniform4iv(id_, uniform.location, n, ints); break;
+    case GL_INT:
+        glProgramUniform1iv(id_, uniform.location, n, ints);
+        break;
+    case GL_INT_VEC2:
+        glProgramUniform2iv(id_, uniform.location, n, ints);
+        break;
+    case GL_INT_VEC3:
+        glProgramUniform3iv(id_, uniform.location, n, ints);
+        break;
+    case GL_INT_VEC4:
+        glProgramUniform4iv(id_, uniform.location, n, ints);
+        break;
     }
 }
 

@@ -79,8 +79,7 @@ private:
     {
         const auto quoted = quoted_file(argument);
         if (!quoted)
-            throw Error(BRUME_ERROR_GL,
-                        where + ": #include " + std::string(argument) + "; expected #include \"file.glsl\"");
+            throw Error(BRUME_ERROR_GL, where + ": #include " + std::string(argument) + "; expected #include \"file.glsl\"");
         const std::string file(*quoted);
         const std::string_view text = shader_text(file);
         if (text.empty())

@@ -160,13 +160,20 @@ void StateGuard::set_pixel_transfer(const PixelTransfer &state) const
 
 std::vector<std::string> StateGuard::names()
 {
-    std::vector<std::string> names = {"GL_CURRENT_PROGRAM",       "GL_ACTIVE_TEXTURE",
-                                      "GL_TEXTURE_BINDING_2D",    "GL_SAMPLER_BINDING",
-                                      "GL_IMAGE_BINDING_NAME",    "GL_IMAGE_BINDING_LEVEL",
-                                      "GL_IMAGE_BINDING_LAYERED", "GL_IMAGE_BINDING_LAYER",
-                                      "GL_IMAGE_BINDING_ACCESS",  "GL_IMAGE_BINDING_FORMAT",
-                                      "GL_MAP_COLOR",             "GL_PIXEL_PACK_BUFFER_BINDING",
-                                      "GL_TRANSFORM_FEEDBACK_PAUSED", "GL_PIXEL_UNPACK_BUFFER_BINDING"};
+    std::vector<std::string> names = {"GL_CURRENT_PROGRAM",
+                                      "GL_ACTIVE_TEXTURE",
+                                      "GL_TEXTURE_BINDING_2D",
+                                      "GL_SAMPLER_BINDING",
+                                      "GL_IMAGE_BINDING_NAME",
+                                      "GL_IMAGE_BINDING_LEVEL",
+                                      "GL_IMAGE_BINDING_LAYERED",
+                                      "GL_IMAGE_BINDING_LAYER",
+                                      "GL_IMAGE_BINDING_ACCESS",
+                                      "GL_IMAGE_BINDING_FORMAT",
+                                      "GL_MAP_COLOR",
+                                      "GL_PIXEL_PACK_BUFFER_BINDING",
+                                      "GL_TRANSFORM_FEEDBACK_PAUSED",
+                                      "GL_PIXEL_UNPACK_BUFFER_BINDING"};
     for (const Parameter &parameter : pixel_store)
         names.push_back(parameter.text);
     for (const Parameter &parameter : pixel_scale)

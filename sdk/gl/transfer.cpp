@@ -63,8 +63,7 @@ template <class Sample> void store_row(const Sample *from, int channels, const H
 
 struct Layout {
     Layout(const HostPixels &host, const GlImage &image)
-        : format(image.channels == 1 ? GL_RED : GL_RGBA),
-          type(host.pixel == BRUME_PIXEL_F16 ? GL_HALF_FLOAT : GL_FLOAT),
+        : format(image.channels == 1 ? GL_RED : GL_RGBA), type(host.pixel == BRUME_PIXEL_F16 ? GL_HALF_FLOAT : GL_FLOAT),
           pixel_bytes(int64_t(host.sample_size) * image.channels)
     {
     }

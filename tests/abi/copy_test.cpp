@@ -131,7 +131,8 @@ TEST_P(Copies, ExtraOutputsOfNothing)
         if (!std::strstr(text, "medium")) {
             const brume_format format = ray_format(5, 4, outputs);
             brume_plan none = nullptr;
-            expect_status(context.get(), brume_plan_create(scene.get(), &format, &none), BRUME_ERROR_UNSUPPORTED, "no medium");
+            expect_status(context.get(), brume_plan_create(scene.get(), &format, &none), BRUME_ERROR_UNSUPPORTED,
+                          "no medium");
             continue;
         }
         Plan plan = make_plan(context, scene, ray_format(5, 4, outputs));

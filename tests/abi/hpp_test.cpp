@@ -31,7 +31,8 @@ TEST(Hpp, FogsAnImage)
     EXPECT_STREQ(entries.back().name, "compose");
     const std::vector<float> color(16, 1), depth(4, 10);
     std::vector<float> output(16);
-    plan.execute(brume::image(color.data(), 2, 2, 4), brume::image(depth.data(), 2, 2, 1), brume::image(output.data(), 2, 2, 4));
+    plan.execute(brume::image(color.data(), 2, 2, 4), brume::image(depth.data(), 2, 2, 1),
+                 brume::image(output.data(), 2, 2, 4));
     EXPECT_NEAR(output[0], 0.36787944, 1e-6);
     EXPECT_EQ(output[3], 1.0f);
     EXPECT_GE(plan.entries().back().measured_ms, 0);

@@ -73,7 +73,9 @@ TEST_P(Images, AnyMemoryLayoutGivesTheSameBits)
                 layout.channels = channels;
                 layout.pixel = pixel;
                 SCOPED_TRACE(name_of(layout));
-                expect_same_bits(expected, fogged(painted(layout), painted_depth(layout.pixel == BRUME_PIXEL_F32 ? layout : Layout{}), layout));
+                expect_same_bits(
+                    expected,
+                    fogged(painted(layout), painted_depth(layout.pixel == BRUME_PIXEL_F32 ? layout : Layout{}), layout));
                 expect_same_bits(expected, fogged(painted(packed), painted_depth(), layout));
                 expect_same_bits(expected, fogged(painted(layout), painted_depth(), packed));
             }
@@ -100,8 +102,8 @@ TEST_P(Images, ChannelsAreThoseOfRgba)
 {
     const Picture rgba = painted({}), depth = painted_depth();
     const Picture expected = fogged(rgba, depth, {});
-    Picture rgb(width, height, {.channels = 3}), grey_as_rgb(width, height, {.channels = 3}), grey(width, height, {.channels = 1}),
-        grey_alpha(width, height, {.channels = 2});
+    Picture rgb(width, height, {.channels = 3}), grey_as_rgb(width, height, {.channels = 3}),
+        grey(width, height, {.channels = 1}), grey_alpha(width, height, {.channels = 2});
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             for (int c = 0; c < 3; ++c) {
@@ -113,7 +115,8 @@ TEST_P(Images, ChannelsAreThoseOfRgba)
             grey_alpha.set(x, y, 1, rgba.get(x, y, 3));
         }
     const Picture rgb_out = fogged(rgb, depth, {.channels = 3}), grey_rgb_out = fogged(grey_as_rgb, depth, {.channels = 3}),
-                  grey_out = fogged(grey, depth, {.channels = 1}), grey_alpha_out = fogged(grey_alpha, depth, {.channels = 2});
+                  grey_out = fogged(grey, depth, {.channels = 1}),
+                  grey_alpha_out = fogged(grey_alpha, depth, {.channels = 2});
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             for (int c = 0; c < 3; ++c)
@@ -135,7 +138,8 @@ TEST_P(Images, MixedTypes)
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             for (int c = 0; c < 4; ++c)
-                ASSERT_EQ(half_out.bits(x, y, c), brume::float_to_half(expected.get(x, y, c))) << x << ", " << y << ", " << c;
+                ASSERT_EQ(half_out.bits(x, y, c), brume::float_to_half(expected.get(x, y, c)))
+                    << x << ", " << y << ", " << c;
 }
 
 // The same picture bottom up. Where the sides are powers of two the pyramid's texels lie the same either way; elsewhere
@@ -150,7 +154,8 @@ TEST_P(Images, OriginsAgree)
             output(w, h), output_flipped(w, h, flipped);
         paint(color), paint(color_flipped), paint_depth(depth), paint_depth(depth_flipped);
         EXPECT_EQ(execute(both_ways.get(), color, depth, output), BRUME_OK) << message(context.get());
-        EXPECT_EQ(execute(both_ways.get(), color_flipped, depth_flipped, output_flipped), BRUME_OK) << message(context.get());
+        EXPECT_EQ(execute(both_ways.get(), color_flipped, depth_flipped, output_flipped), BRUME_OK)
+            << message(context.get());
         float largest = 0;
         for (int y = 0; y < h; ++y)
             for (int x = 0; x < w; ++x)
@@ -202,8 +207,10 @@ TEST_P(Images, OverlapIsRefused)
 
 TEST_P(Images, ExtraOutputsShareNoMemory)
 {
-    Plan with_outputs = make_plan(context, scene, ray_format(width, height, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_BLUR_RADIUS));
-    Picture color = painted({}), depth = painted_depth(), output(width, height), extra(width, height), radius(width, height, {.channels = 1});
+    Plan with_outputs =
+        make_plan(context, scene, ray_format(width, height, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_BLUR_RADIUS));
+    Picture color = painted({}), depth = painted_depth(), output(width, height), extra(width, height),
+            radius(width, height, {.channels = 1});
     const auto with = [&](const Picture &transmittance, const Picture &blur_radius) {
         const brume_image a = transmittance.image(), b = blur_radius.image();
         return execute(with_outputs.get(), color, depth, output,

@@ -106,7 +106,8 @@ TEST_P(Outputs, ExtraOutputsAreWhatTheySay)
 {
     Scene scene = make_scene(context, R"({"brume": 1, "camera": {"vertical_fov": 50},
         "medium": {"scattering": [0.01, 0.02, 0.03], "absorption": [0.002, 0.001, 0], "emission": 0.01, "g": 0.5}})");
-    const uint32_t all = BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS;
+    const uint32_t all =
+        BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS;
     Plan plan = make_plan(context, scene, ray_format(width, height, all));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
@@ -159,7 +160,8 @@ TEST_P(Outputs, ExtraOutputsInAnyLayout)
     };
     for (uint32_t pixel : {BRUME_PIXEL_F32, BRUME_PIXEL_F16}) {
         const auto expected = outputs_in({.pixel = pixel});
-        for (Layout layout : {Layout{.row_padding = 12}, {.pixel_padding = 4}, {.negative_rows = true}, {.pixel_padding = 2, .offset = 1}}) {
+        for (Layout layout :
+             {Layout{.row_padding = 12}, {.pixel_padding = 4}, {.negative_rows = true}, {.pixel_padding = 2, .offset = 1}}) {
             layout.pixel = pixel;
             const auto got = outputs_in(layout);
             expect_same_bits(expected.first, got.first);

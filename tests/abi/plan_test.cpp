@@ -199,15 +199,17 @@ TEST_P(Plans, ImagesMustFit)
     expect_status(context.get(), execute(plan.get(), color, depth, flipped), BRUME_ERROR_ARGUMENT, "output.origin");
 
     const brume_image wide_image = wide.image(), good = wide.image();
-    expect_status(context.get(),
-                  execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &wide_image}}),
-                  BRUME_ERROR_FORMAT, "extra[0]");
+    expect_status(
+        context.get(),
+        execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &wide_image}}),
+        BRUME_ERROR_FORMAT, "extra[0]");
     expect_status(context.get(),
                   execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_SCATTERED, &good}}),
                   BRUME_ERROR_ARGUMENT, "extra[0].output");
-    expect_status(context.get(),
-                  execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, nullptr}}),
-                  BRUME_ERROR_ARGUMENT, "extra[0].image");
+    expect_status(
+        context.get(),
+        execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, nullptr}}),
+        BRUME_ERROR_ARGUMENT, "extra[0].image");
 
     // A new plan for the new format is all that it takes.
     Plan again = make_plan(context, scene, ray_format(17, 12));
@@ -288,8 +290,8 @@ TEST_P(Plans, MemoryDoesNotGrowOnceWarm)
         EXPECT_EQ(brume_context_get_info(context.get(), &info), BRUME_OK);
         return info.host_bytes + info.device_bytes;
     };
-    Picture color(96, 64, {.pixel = BRUME_PIXEL_F16}), depth(96, 64, {.channels = 1}), output(96, 64, {.pixel = BRUME_PIXEL_F16}),
-        transmittance(96, 64, {.pixel = BRUME_PIXEL_F16});
+    Picture color(96, 64, {.pixel = BRUME_PIXEL_F16}), depth(96, 64, {.channels = 1}),
+        output(96, 64, {.pixel = BRUME_PIXEL_F16}), transmittance(96, 64, {.pixel = BRUME_PIXEL_F16});
     const brume_image extra_image = transmittance.image();
     paint(color);
     paint_depth(depth);

@@ -60,7 +60,8 @@ TEST_F(Strangers, AGoodOneRuns)
     paint(color);
     ASSERT_EQ(run("well_behaved"), BRUME_OK) << message(context.get());
     expect_same_bits(color, output);
-    ASSERT_EQ(brume_scene_set_number(make_scene(context, scene_with("well_behaved")).get(), "well_behaved", "strength", 10), BRUME_OK);
+    ASSERT_EQ(brume_scene_set_number(make_scene(context, scene_with("well_behaved")).get(), "well_behaved", "strength", 10),
+              BRUME_OK);
 }
 
 TEST_F(Strangers, BadOnesFailWithAMessage)
@@ -107,12 +108,23 @@ TEST_F(Strangers, RefusalsSayWhy)
 {
     const auto effects = effects_of(context);
     const std::pair<const char *, const char *> refused[] = {
-        {"wrong_abi.so", "ABI"},          {"null_table.so", "NULL"},         {"throws_in_entry.so", "thrown in entry"},
-        {"throws_int_in_entry.so", "threw"}, {"struct_size_zero.so", "struct_size"}, {"struct_size_huge.so", "struct_size"},
-        {"bad_name.so", "name"},          {"null_name.so", "name"},          {"null_help.so", "help"},
-        {"null_execute.so", "execute"},   {"unknown_outputs.so", "outputs"}, {"billion_parameters.so", "parameter_count"},
-        {"null_parameters.so", "parameters"}, {"nan_default.so", "default"}, {"bad_type.so", "type"},
-        {"missing_symbol.so", "brume_plugin_effect"}, {"empty.so", "cannot be loaded"},
+        {"wrong_abi.so", "ABI"},
+        {"null_table.so", "NULL"},
+        {"throws_in_entry.so", "thrown in entry"},
+        {"throws_int_in_entry.so", "threw"},
+        {"struct_size_zero.so", "struct_size"},
+        {"struct_size_huge.so", "struct_size"},
+        {"bad_name.so", "name"},
+        {"null_name.so", "name"},
+        {"null_help.so", "help"},
+        {"null_execute.so", "execute"},
+        {"unknown_outputs.so", "outputs"},
+        {"billion_parameters.so", "parameter_count"},
+        {"null_parameters.so", "parameters"},
+        {"nan_default.so", "default"},
+        {"bad_type.so", "type"},
+        {"missing_symbol.so", "brume_plugin_effect"},
+        {"empty.so", "cannot be loaded"},
     };
     for (auto [file, part] : refused) {
         ASSERT_TRUE(effects.count(file)) << file;
@@ -124,9 +136,11 @@ TEST_F(Strangers, RefusalsSayWhy)
     }
     // Asking for one by the name of its file says that it is there and was refused.
     Scene scene = make_scene(context, R"({"brume": 1})");
-    expect_status(context.get(), brume_scene_set_text(scene.get(), "wrong_abi", nullptr, nullptr), BRUME_ERROR_NOT_FOUND, "refused");
+    expect_status(context.get(), brume_scene_set_text(scene.get(), "wrong_abi", nullptr, nullptr), BRUME_ERROR_NOT_FOUND,
+                  "refused");
     brume_parameter_info info = BRUME_PARAMETER_INFO_INIT;
-    expect_status(context.get(), brume_parameter_get_info(context.get(), "wrong_abi.so", 0, &info), BRUME_ERROR_NOT_FOUND, "wrong_abi");
+    expect_status(context.get(), brume_parameter_get_info(context.get(), "wrong_abi.so", 0, &info), BRUME_ERROR_NOT_FOUND,
+                  "wrong_abi");
     EXPECT_EQ(effects.count("multiscatter"), 1u);
     EXPECT_EQ(effects.at("multiscatter").refusal, nullptr);
 }

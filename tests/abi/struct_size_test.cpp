@@ -9,10 +9,7 @@ constexpr size_t tail = 64;
 
 // A struct followed by what a newer header might have appended.
 template <class Struct> struct Tagged {
-    explicit Tagged(const Struct &value)
-    {
-        std::memcpy(bytes, &value, sizeof value);
-    }
+    explicit Tagged(const Struct &value) { std::memcpy(bytes, &value, sizeof value); }
     Struct *get() { return reinterpret_cast<Struct *>(bytes); }
     void set_size(uint32_t size) { std::memcpy(bytes, &size, sizeof size); }
 
@@ -20,7 +17,8 @@ template <class Struct> struct Tagged {
 };
 
 // Sizes that every struct must take or refuse; `call` makes a call that succeeds with the struct as it is.
-template <class Struct> void check_sizes(brume_context context, const Struct &value, std::function<brume_status(Struct *)> call)
+template <class Struct>
+void check_sizes(brume_context context, const Struct &value, std::function<brume_status(Struct *)> call)
 {
     const auto at_size = [&](uint32_t size, unsigned char last) {
         Tagged<Struct> tagged(value);

@@ -48,7 +48,8 @@ void expect_status(brume_context context, brume_status got, brume_status wanted,
 {
     EXPECT_STREQ(brume_status_name(got), brume_status_name(wanted)) << message(context);
     if (wanted != BRUME_OK) {
-        EXPECT_NE(message(context).find(part), std::string::npos) << "no \"" << part << "\" in \"" << message(context) << '"';
+        EXPECT_NE(message(context).find(part), std::string::npos)
+            << "no \"" << part << "\" in \"" << message(context) << '"';
     }
 }
 
@@ -200,8 +201,8 @@ void expect_same_bits(const Picture &a, const Picture &b)
     for (int y = 0; y < a.height(); ++y)
         for (int x = 0; x < a.width(); ++x)
             for (int c = 0; c < a.channels(); ++c)
-                ASSERT_EQ(a.bits(x, y, c), b.bits(x, y, c)) << "pixel " << x << ", " << y << " channel " << c << ": "
-                                                            << a.get(x, y, c) << " and " << b.get(x, y, c);
+                ASSERT_EQ(a.bits(x, y, c), b.bits(x, y, c))
+                    << "pixel " << x << ", " << y << " channel " << c << ": " << a.get(x, y, c) << " and " << b.get(x, y, c);
 }
 
 void EachBackend::SetUp()

@@ -45,7 +45,7 @@ brume_format ray_format(int32_t width, int32_t height, uint32_t outputs = 0);
 struct Layout {
     uint32_t channels = 4;
     uint32_t pixel = BRUME_PIXEL_F32;
-    int pixel_padding = 0;   // [bytes]
+    int pixel_padding = 0;  // [bytes]
     int row_padding = 0;
     bool negative_rows = false;  // descriptor's first row is last in memory
     bool bottom_up = false;      // origin BOTTOM_LEFT: row 0 of the descriptor is the picture's bottom
@@ -95,9 +95,8 @@ protected:
     void SetUp() override;
     Context context;
 };
-#define INSTANTIATE_EACH_BACKEND(suite)                                                                     \
-    INSTANTIATE_TEST_SUITE_P(, suite, testing::Values(BRUME_BACKEND_CPU, BRUME_BACKEND_GL), [](auto &info) { \
-        return std::string(info.param == BRUME_BACKEND_GL ? "gl" : "cpu");                                  \
-    })
+#define INSTANTIATE_EACH_BACKEND(suite)                                                                                     \
+    INSTANTIATE_TEST_SUITE_P(, suite, testing::Values(BRUME_BACKEND_CPU, BRUME_BACKEND_GL),                                 \
+                             [](auto &info) { return std::string(info.param == BRUME_BACKEND_GL ? "gl" : "cpu"); })
 
 }  // namespace client

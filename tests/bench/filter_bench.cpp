@@ -66,15 +66,16 @@ struct Plan {
 };
 
 struct Measured {
-    double passes_ms = 0;   // the passes alone: GPU timers on GL
-    double copy_ms = 0;     // a plain copy of the frame's colour in host memory
-    double bytes = 0;       // least that the passes read and write
+    double passes_ms = 0;  // the passes alone: GPU timers on GL
+    double copy_ms = 0;    // a plain copy of the frame's colour in host memory
+    double bytes = 0;      // least that the passes read and write
     std::vector<std::pair<std::string, double>> per_pass;
 };
 
 Measured measure(brume_context context, Frame &frame, const std::string &parameters, int rounds)
 {
-    Plan plan(context, scene("\"scattering\":[0.03,0.03,0.032],\"g\":0.8", parameters), frame.color.width, frame.color.height);
+    Plan plan(context, scene("\"scattering\":[0.03,0.03,0.032],\"g\":0.8", parameters), frame.color.width,
+              frame.color.height);
     brume_image c = describe(frame.color), d = describe(frame.depth), o = describe(frame.output);
     brume_frame f = BRUME_FRAME_INIT;
     f.color = &c;
@@ -123,7 +124,8 @@ int main(int argc, char **argv)
     }
     nlohmann::json report = nlohmann::json::array();
     std::ofstream table(argv[argc - 1]);
-    table << "| backend | size | kernel | fetch | separation | ms | x a copy in memory | MB at least | GB/s of that | passes |\n"
+    table << "| backend | size | kernel | fetch | separation | ms | x a copy in memory | MB at least | GB/s of that | "
+             "passes |\n"
              "|---|---|---|---|---|---|---|---|---|---|\n";
     struct Device {
         const char *name;
@@ -147,7 +149,8 @@ int main(int argc, char **argv)
                     for (bool separation : {false, true}) {
                         bool paper_default = std::string(kernel) == "4x4" && std::string(fetch) == "linear_bicubic";
                         // The paper separates with the bicubic fetch only; slow devices do 4K for the default alone.
-                        if ((separation && std::string(fetch) != "linear_bicubic") || ((quick || (slow && width > 1920)) && !paper_default))
+                        if ((separation && std::string(fetch) != "linear_bicubic") ||
+                            ((quick || (slow && width > 1920)) && !paper_default))
                             continue;
                         std::string parameters = std::string("\"kernel_size\":\"") + kernel + "\",\"fetch\":\"" + fetch +
                                                  "\",\"separation\":" + (separation ? "true" : "false");
@@ -160,13 +163,21 @@ int main(int argc, char **argv)
                             snprintf(text, sizeof text, "%s%s %.3g", listed.empty() ? "" : ", ", pass.c_str(), ms);
                             listed += text;
                         }
-                        report.push_back({{"backend", name}, {"width", width}, {"height", height}, {"kernel", kernel}, {"fetch", fetch},
-                                          {"separation", separation}, {"ms", m.passes_ms}, {"copy_ms", m.copy_ms},
-                                          {"ratio_to_copy", m.passes_ms / m.copy_ms}, {"least_bytes", m.bytes}, {"passes_ms", passes}});
+                        report.push_back({{"backend", name},
+                                          {"width", width},
+                                          {"height", height},
+                                          {"kernel", kernel},
+                                          {"fetch", fetch},
+                                          {"separation", separation},
+                                          {"ms", m.passes_ms},
+                                          {"copy_ms", m.copy_ms},
+                                          {"ratio_to_copy", m.passes_ms / m.copy_ms},
+                                          {"least_bytes", m.bytes},
+                                          {"passes_ms", passes}});
                         char line[400];
-                        snprintf(line, sizeof line, "| %s | %d x %d | %s | %s | %s | %.4g | %.1f | %.0f | %.2f | %s |\n", name.c_str(), width,
-                                 height, kernel, fetch, separation ? "yes" : "", m.passes_ms, m.passes_ms / m.copy_ms, m.bytes / 1e6,
-                                 m.bytes / m.passes_ms / 1e6, listed.c_str());
+                        snprintf(line, sizeof line, "| %s | %d x %d | %s | %s | %s | %.4g | %.1f | %.0f | %.2f | %s |\n",
+                                 name.c_str(), width, height, kernel, fetch, separation ? "yes" : "", m.passes_ms,
+                                 m.passes_ms / m.copy_ms, m.bytes / 1e6, m.bytes / m.passes_ms / 1e6, listed.c_str());
                         table << line << std::flush;
                         printf("%s", line);
                         fflush(stdout);

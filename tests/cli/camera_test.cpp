@@ -19,134 +19,148 @@ using Imath::M44f;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-Imf::Header header_of(int width = 1920, int height = 1080) { return Imf::Header(width, height); }
+Imf::Header header_of(int width = 1920, int height = 1080)
+{
+    return Imf::Header(width, height);
+}
 
 /// World (right-handed) to the standard's camera at `place`, turned about y, looking along its own +z.
-M44d world_to_camera(const Imath::V3d& place, double turn) {
-  M44d flip;
-  flip[2][2] = -1;
-  return M44d().setTranslation(-place) * M44d().setAxisAngle(Imath::V3d(0, 1, 0), -turn) * flip;
+M44d world_to_camera(const Imath::V3d &place, double turn)
+{
+    M44d flip;
+    flip[2][2] = -1;
+    return M44d().setTranslation(-place) * M44d().setAxisAngle(Imath::V3d(0, 1, 0), -turn) * flip;
 }
 
 /// Camera to NDC of 0..1 with y down, for slopes of the window's edges; `forward` is the sign of z in view.
-M44d camera_to_ndc(double left, double right, double bottom, double top, double forward = 1) {
-  // u = (x / z - left) / (right - left), v = (top - y / z) / (top - bottom)
-  M44d m(0.0);
-  m[0][0] = 1 / (right - left);
-  m[2][0] = -forward * left / (right - left);
-  m[1][1] = -1 / (top - bottom);
-  m[2][1] = forward * top / (top - bottom);
-  m[2][3] = forward;
-  m[3][2] = 1;
-  return m;
+M44d camera_to_ndc(double left, double right, double bottom, double top, double forward = 1)
+{
+    // u = (x / z - left) / (right - left), v = (top - y / z) / (top - bottom)
+    M44d m(0.0);
+    m[0][0] = 1 / (right - left);
+    m[2][0] = -forward * left / (right - left);
+    m[1][1] = -1 / (top - bottom);
+    m[2][1] = forward * top / (top - bottom);
+    m[2][3] = forward;
+    m[3][2] = 1;
+    return m;
 }
 
-TEST(CameraMetadata, ReadsTheStandardMatrices) {
-  Imf::Header header = header_of();
-  const double y = std::tan(25 * kDegree), x = y * 16 / 9;
-  const M44d w2c = world_to_camera({3, 4, 5}, 0.3);
-  Imf::addWorldToCamera(header, M44f(w2c));
-  Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-x, x, -y, y)));
-  const Camera camera = camera_from_metadata(header);
-  ASSERT_TRUE(camera.projection && camera.pose);
-  EXPECT_NEAR(camera.projection->vertical_fov(), 50 * kDegree, 1e-5);
-  EXPECT_NEAR(camera.projection->center()[0], 0.5, 1e-5);
-  EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-5);
-  EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-5);
-  const Pose& pose = *camera.pose;
-  EXPECT_NEAR(pose[3], 3, 1e-5);
-  EXPECT_NEAR(pose[7], 4, 1e-5);
-  EXPECT_NEAR(pose[11], 5, 1e-5);
-  // Turned left by .3 about y, it looks along -(sin .3, 0, cos .3); the pose's third column points backward.
-  EXPECT_NEAR(pose[2], std::sin(0.3), 1e-5);
-  EXPECT_NEAR(pose[10], std::cos(0.3), 1e-5);
-  EXPECT_NEAR(pose[5], 1, 1e-5);
-}
-
-TEST(CameraMetadata, KeepsOffAxisCentresAndAnamorphicPixels) {
-  Imf::Header header = header_of(1000, 1000);
-  const M44d w2c = world_to_camera({0, 0, 0}, 0);
-  Imf::addWorldToCamera(header, M44f(w2c));
-  Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-0.5, 1.5, -0.25, 0.75)));
-  const Camera camera = camera_from_metadata(header);
-  ASSERT_TRUE(camera.projection);
-  EXPECT_NEAR(camera.projection->center()[0], 0.25, 1e-5);
-  EXPECT_NEAR(camera.projection->center()[1], 0.75, 1e-5);
-  EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 2, 1e-5);
-  EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(0.5), 1e-5);
-}
-
-TEST(CameraMetadata, UnderstandsCamerasThatLookAlongMinusZ) {
-  Imf::Header header = header_of(1000, 1000);
-  const M44d w2c = M44d().setTranslation(Imath::V3d(-1, -2, -3));  // right-handed, as OpenGL has it
-  Imf::addWorldToCamera(header, M44f(w2c));
-  Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-1, 1, -1, 1, -1)));
-  for (const bool with_ndc : {true, false}) {
-    if (!with_ndc) header.erase("worldToNDC");
+TEST(CameraMetadata, ReadsTheStandardMatrices)
+{
+    Imf::Header header = header_of();
+    const double y = std::tan(25 * kDegree), x = y * 16 / 9;
+    const M44d w2c = world_to_camera({3, 4, 5}, 0.3);
+    Imf::addWorldToCamera(header, M44f(w2c));
+    Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-x, x, -y, y)));
     const Camera camera = camera_from_metadata(header);
-    ASSERT_TRUE(camera.pose);
-    EXPECT_EQ(camera.projection.has_value(), with_ndc);
+    ASSERT_TRUE(camera.projection && camera.pose);
+    EXPECT_NEAR(camera.projection->vertical_fov(), 50 * kDegree, 1e-5);
+    EXPECT_NEAR(camera.projection->center()[0], 0.5, 1e-5);
+    EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-5);
+    EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-5);
+    const Pose &pose = *camera.pose;
+    EXPECT_NEAR(pose[3], 3, 1e-5);
+    EXPECT_NEAR(pose[7], 4, 1e-5);
+    EXPECT_NEAR(pose[11], 5, 1e-5);
+    // Turned left by .3 about y, it looks along -(sin .3, 0, cos .3); the pose's third column points backward.
+    EXPECT_NEAR(pose[2], std::sin(0.3), 1e-5);
+    EXPECT_NEAR(pose[10], std::cos(0.3), 1e-5);
+    EXPECT_NEAR(pose[5], 1, 1e-5);
+}
+
+TEST(CameraMetadata, KeepsOffAxisCentresAndAnamorphicPixels)
+{
+    Imf::Header header = header_of(1000, 1000);
+    const M44d w2c = world_to_camera({0, 0, 0}, 0);
+    Imf::addWorldToCamera(header, M44f(w2c));
+    Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-0.5, 1.5, -0.25, 0.75)));
+    const Camera camera = camera_from_metadata(header);
+    ASSERT_TRUE(camera.projection);
+    EXPECT_NEAR(camera.projection->center()[0], 0.25, 1e-5);
+    EXPECT_NEAR(camera.projection->center()[1], 0.75, 1e-5);
+    EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 2, 1e-5);
+    EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(0.5), 1e-5);
+}
+
+TEST(CameraMetadata, UnderstandsCamerasThatLookAlongMinusZ)
+{
+    Imf::Header header = header_of(1000, 1000);
+    const M44d w2c = M44d().setTranslation(Imath::V3d(-1, -2, -3));  // right-handed, as OpenGL has it
+    Imf::addWorldToCamera(header, M44f(w2c));
+    Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-1, 1, -1, 1, -1)));
+    for (const bool with_ndc : {true, false}) {
+        if (!with_ndc)
+            header.erase("worldToNDC");
+        const Camera camera = camera_from_metadata(header);
+        ASSERT_TRUE(camera.pose);
+        EXPECT_EQ(camera.projection.has_value(), with_ndc);
+        EXPECT_NEAR((*camera.pose)[10], 1, 1e-6);
+        EXPECT_NEAR((*camera.pose)[11], 3, 1e-6);
+    }
+}
+
+TEST(CameraMetadata, UnderstandsOpenGLsClipSpaceWhereItStandsForNdc)
+{
+    Imf::Header header = header_of(1600, 800);
+    const double y = std::tan(20 * kDegree), x = 2 * y;
+    M44d clip(0.0);
+    clip[0][0] = 1 / x;
+    clip[1][1] = 1 / y;
+    clip[2][2] = clip[2][3] = -1;
+    clip[3][2] = -0.2;
+    const M44d w2c = M44d().setTranslation(Imath::V3d(-1, -2, -3));
+    Imf::addWorldToCamera(header, M44f(w2c));
+    Imf::addWorldToNDC(header, M44f(w2c * clip));
+    const Camera camera = camera_from_metadata(header);
+    ASSERT_TRUE(camera.projection && camera.pose);
+    EXPECT_NEAR(camera.projection->vertical_fov(), 40 * kDegree, 1e-5);
+    EXPECT_NEAR(camera.projection->center()[0], 0.5, 1e-5);
+    EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-5);
+    EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-5);
     EXPECT_NEAR((*camera.pose)[10], 1, 1e-6);
-    EXPECT_NEAR((*camera.pose)[11], 3, 1e-6);
-  }
 }
 
-TEST(CameraMetadata, UnderstandsOpenGLsClipSpaceWhereItStandsForNdc) {
-  Imf::Header header = header_of(1600, 800);
-  const double y = std::tan(20 * kDegree), x = 2 * y;
-  M44d clip(0.0);
-  clip[0][0] = 1 / x;
-  clip[1][1] = 1 / y;
-  clip[2][2] = clip[2][3] = -1;
-  clip[3][2] = -0.2;
-  const M44d w2c = M44d().setTranslation(Imath::V3d(-1, -2, -3));
-  Imf::addWorldToCamera(header, M44f(w2c));
-  Imf::addWorldToNDC(header, M44f(w2c * clip));
-  const Camera camera = camera_from_metadata(header);
-  ASSERT_TRUE(camera.projection && camera.pose);
-  EXPECT_NEAR(camera.projection->vertical_fov(), 40 * kDegree, 1e-5);
-  EXPECT_NEAR(camera.projection->center()[0], 0.5, 1e-5);
-  EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-5);
-  EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-5);
-  EXPECT_NEAR((*camera.pose)[10], 1, 1e-6);
+TEST(CameraMetadata, VRaysMatrixIsCameraToWorld)
+{
+    Imf::Header header = header_of(960, 540);
+    M44f c2w;
+    c2w.setTranslation(Imath::V3f(0, 5, 20));
+    header.insert("cameraTransform", Imf::M44fAttribute(c2w));
+    header.insert("cameraFov", Imf::FloatAttribute(54.4322f));
+    const Camera camera = camera_from_metadata(header);
+    ASSERT_TRUE(camera.projection && camera.pose);
+    EXPECT_NEAR((*camera.pose)[7], 5, 1e-6);
+    EXPECT_NEAR((*camera.pose)[11], 20, 1e-6);
+    EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(std::tan(27.2161 * kDegree) * 9 / 16), 1e-6);
+    header.erase("cameraFov");
+    header.insert("cameraAperture", Imf::FloatAttribute(36));
+    header.insert("cameraFocalLength", Imf::FloatAttribute(35));
+    EXPECT_NEAR(camera_from_metadata(header).projection->vertical_fov(), camera.projection->vertical_fov(), 1e-5);
 }
 
-TEST(CameraMetadata, VRaysMatrixIsCameraToWorld) {
-  Imf::Header header = header_of(960, 540);
-  M44f c2w;
-  c2w.setTranslation(Imath::V3f(0, 5, 20));
-  header.insert("cameraTransform", Imf::M44fAttribute(c2w));
-  header.insert("cameraFov", Imf::FloatAttribute(54.4322f));
-  const Camera camera = camera_from_metadata(header);
-  ASSERT_TRUE(camera.projection && camera.pose);
-  EXPECT_NEAR((*camera.pose)[7], 5, 1e-6);
-  EXPECT_NEAR((*camera.pose)[11], 20, 1e-6);
-  EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(std::tan(27.2161 * kDegree) * 9 / 16), 1e-6);
-  header.erase("cameraFov");
-  header.insert("cameraAperture", Imf::FloatAttribute(36));
-  header.insert("cameraFocalLength", Imf::FloatAttribute(35));
-  EXPECT_NEAR(camera_from_metadata(header).projection->vertical_fov(), camera.projection->vertical_fov(), 1e-5);
+TEST(CameraMetadata, IgnoresNonsense)
+{
+    Imf::Header header = header_of();
+    Imf::addWorldToCamera(header, M44f(0.0f));
+    header.insert("cameraFov", Imf::FloatAttribute(0));
+    const Camera camera = camera_from_metadata(header);
+    EXPECT_FALSE(camera.projection || camera.pose);
+    EXPECT_EQ(camera.notes.size(), 2u);
 }
 
-TEST(CameraMetadata, IgnoresNonsense) {
-  Imf::Header header = header_of();
-  Imf::addWorldToCamera(header, M44f(0.0f));
-  header.insert("cameraFov", Imf::FloatAttribute(0));
-  const Camera camera = camera_from_metadata(header);
-  EXPECT_FALSE(camera.projection || camera.pose);
-  EXPECT_EQ(camera.notes.size(), 2u);
-}
-
-TEST(CameraFile, ReadsTheSceneFilesBlock) {
-  const Folder folder;
-  write_text(folder / "c.json", R"({"camera":{"horizontal_fov":90,"camera_to_world":[[1,0,0,7],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}})");
-  const Camera camera = camera_from_file(folder / "c.json", header_of(1600, 800));
-  EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(0.5), 1e-9);
-  EXPECT_EQ((*camera.pose)[3], 7);
-  for (const char* text : {"{}", "[1]", "{\"vertical_fov\":180}", "{\"camera_to_world\":[1,2]}", "{"}) {
-    write_text(folder / "bad.json", text);
-    EXPECT_THROW(camera_from_file(folder / "bad.json", header_of()), RequestError) << text;
-  }
+TEST(CameraFile, ReadsTheSceneFilesBlock)
+{
+    const Folder folder;
+    write_text(folder / "c.json",
+               R"({"camera":{"horizontal_fov":90,"camera_to_world":[[1,0,0,7],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}})");
+    const Camera camera = camera_from_file(folder / "c.json", header_of(1600, 800));
+    EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(0.5), 1e-9);
+    EXPECT_EQ((*camera.pose)[3], 7);
+    for (const char *text : {"{}", "[1]", "{\"vertical_fov\":180}", "{\"camera_to_world\":[1,2]}", "{"}) {
+        write_text(folder / "bad.json", text);
+        EXPECT_THROW(camera_from_file(folder / "bad.json", header_of()), RequestError) << text;
+    }
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ Frame random_frame(int width, int height, unsigned seed)
 
 const char *media[] = {
     "\"scattering\":[0.02,0.03,0.05],\"absorption\":[0.01,0,0.002],\"g\":0.8",
-    "\"scattering\":0.08,\"g\":0.5,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":0.25,\"direction\":[0.1,1,0.2]}]",
+    "\"scattering\":0.08,\"g\":0.5,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":0.25,\"direction\":[0.1,1,"
+    "0.2]}]",
     "\"scattering\":0.001,\"g\":-0.3,\"emission\":[0.01,0.02,0.03]",
 };
 
@@ -77,14 +78,16 @@ TEST(GpuAgainstCpu, WholeFilterWithinItsBound)
     for (auto [w, h] : {std::pair(160, 90), {61, 37}, {3, 5}})
         for (const char *medium : media)
             for (const char *parameters :
-                 {"", "\"kernel_size\":\"2x2\",\"fetch\":\"linear_bilinear\"", "\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\"",
-                  "\"masking\":false,\"density_blurring\":false", "\"separation\":true", "\"levels\":3"}) {
+                 {"", "\"kernel_size\":\"2x2\",\"fetch\":\"linear_bilinear\"",
+                  "\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\"", "\"masking\":false,\"density_blurring\":false",
+                  "\"separation\":true", "\"levels\":3"}) {
                 Frame f = random_frame(w, h, 2);
                 auto a = run(gpu(), scene(medium, parameters), f.color, f.depth),
                      b = run(cpu(), scene(medium, parameters), f.color, f.depth);
                 Worst found = compare(a.output, b.output, 0.05);
                 worst = std::max(worst, found.error);
-                EXPECT_LT(found.error, bound) << w << "x" << h << " " << medium << " " << parameters << " " << found.describe();
+                EXPECT_LT(found.error, bound)
+                    << w << "x" << h << " " << medium << " " << parameters << " " << found.describe();
             }
     printf("whole filter, %s against CPU: worst %.2g (bound %.2g)\n", device, worst, bound);
 }
@@ -99,5 +102,6 @@ TEST(Threads, AnyNumberGivesTheSameBits)
     }
     auto again = run(cpu(), scene(media[0], "\"separation\":true"), f.color, f.depth);
     EXPECT_EQ(one.output.data, again.output.data);
-    EXPECT_EQ(run(gpu(), scene(media[1]), f.color, f.depth).output.data, run(gpu(), scene(media[1]), f.color, f.depth).output.data);
+    EXPECT_EQ(run(gpu(), scene(media[1]), f.color, f.depth).output.data,
+              run(gpu(), scene(media[1]), f.color, f.depth).output.data);
 }

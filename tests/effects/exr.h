@@ -22,8 +22,8 @@ inline Picture read_exr(const std::string &file, const std::vector<std::string> 
     Imf::FrameBuffer buffer;
     size_t pixel = sizeof(float) * channels.size();
     for (size_t c = 0; c < channels.size(); ++c)
-        buffer.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, p.data.data() + c, window, pixel, pixel * size_t(p.width), 1, 1,
-                                                    channels[c] == "A" ? 1.0 : 0.0));
+        buffer.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, p.data.data() + c, window, pixel, pixel * size_t(p.width), 1,
+                                                    1, channels[c] == "A" ? 1.0 : 0.0));
     in.setFrameBuffer(buffer);
     in.readPixels(window.min.y, window.max.y);
     return p;
@@ -37,8 +37,8 @@ inline void write_exr(const std::string &file, const Picture &p, const std::vect
     size_t pixel = sizeof(float) * size_t(p.channels);
     for (size_t c = 0; c < channels.size(); ++c) {
         header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
-        buffer.insert(channels[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(const_cast<float *>(p.data.data() + c)), pixel,
-                                              pixel * size_t(p.width)));
+        buffer.insert(channels[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(const_cast<float *>(p.data.data() + c)),
+                                              pixel, pixel * size_t(p.width)));
     }
     Imf::OutputFile out(file.c_str(), header);
     out.setFrameBuffer(buffer);

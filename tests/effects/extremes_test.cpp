@@ -24,7 +24,8 @@ std::vector<Case> cases()
     for (float d : depths)
         for (double tau : taus) {
             char medium[200];
-            snprintf(medium, sizeof medium, "\"scattering\":[%.9g,0,%.9g],\"absorption\":[0,%.9g,0],\"g\":0.8", tau, tau, tau);
+            snprintf(medium, sizeof medium, "\"scattering\":[%.9g,0,%.9g],\"absorption\":[0,%.9g,0],\"g\":0.8", tau, tau,
+                     tau);
             all.push_back({"depth " + std::to_string(d) + " sigma " + std::to_string(tau), medium, d, 2});
         }
     for (double g : {-1.0, -0.999, 0.0, 0.999, 1.0}) {
@@ -37,10 +38,11 @@ std::vector<Case> cases()
     for (const char *direction : {"[0,1,0]", "[0,-1,0]", "[1e-9,1,0]", "[0,0,1]", "[0,0,-1]"})
         for (const char *falloff : {"0", "1e-12", "0.3", "1000"})
             for (const char *origin : {"[0,0,0]", "[0,1000000,0]", "[0,-1000000,0]"})
-                all.push_back({std::string("falloff ") + falloff + " along " + direction + " from " + origin,
-                               std::string("\"scattering\":0.1,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":") +
-                                   falloff + ",\"direction\":" + direction + ",\"origin\":" + origin + "}]",
-                               INFINITY, 1});
+                all.push_back(
+                    {std::string("falloff ") + falloff + " along " + direction + " from " + origin,
+                     std::string("\"scattering\":0.1,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":") +
+                         falloff + ",\"direction\":" + direction + ",\"origin\":" + origin + "}]",
+                     INFINITY, 1});
     return all;
 }
 
@@ -71,7 +73,10 @@ TEST_P(Extremes, MediaDepthsAndRadiances)
                 for (int k = 0; k < 3; ++k)
                     color.at(x, y)[k] = c.radiance;
             }
-        Options all{{}, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0};
+        Options all{{},
+                    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED |
+                        BRUME_OUTPUT_BLUR_RADIUS,
+                    0};
         for (const char *parameters : {"", "\"separation\":true,\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\""}) {
             auto r = run(context(), scene(c.medium, parameters), color, depth, all);
             for (int y = 0; y < 6; ++y)
@@ -79,7 +84,8 @@ TEST_P(Extremes, MediaDepthsAndRadiances)
                     for (int k = 0; k < 3; ++k) {
                         float in = color.at(x, y)[k], out = r.output.at(x, y)[k];
                         if (!std::isfinite(in)) {
-                            ASSERT_TRUE(std::isnan(in) ? std::isnan(out) : in == out) << c.name << ": not returned unchanged";
+                            ASSERT_TRUE(std::isnan(in) ? std::isnan(out) : in == out)
+                                << c.name << ": not returned unchanged";
                             continue;
                         }
                         ASSERT_TRUE(std::isfinite(out)) << c.name << " at " << x << "," << y << ": " << out;
@@ -88,7 +94,8 @@ TEST_P(Extremes, MediaDepthsAndRadiances)
                         ASSERT_LE(std::abs(out), bound * 2.0001f) << c.name << ": more light than there is";
                         float t = r.transmittance.at(x, y)[k];
                         ASSERT_TRUE(t >= 0 && t <= 1) << c.name << ": transmittance " << t;
-                        ASSERT_TRUE(std::isfinite(r.optical_depth.at(x, y)[k]) && r.optical_depth.at(x, y)[k] >= 0) << c.name;
+                        ASSERT_TRUE(std::isfinite(r.optical_depth.at(x, y)[k]) && r.optical_depth.at(x, y)[k] >= 0)
+                            << c.name;
                         ASSERT_TRUE(std::isfinite(r.blur_radius.at(x, y)[0]) && r.blur_radius.at(x, y)[0] >= 0) << c.name;
                         ASSERT_TRUE(std::isfinite(r.scattered.at(x, y)[k])) << c.name;
                     }
@@ -101,11 +108,13 @@ TEST_P(Extremes, CamerasFarFromTheOrigin)
     // The same relative scene near the origin and 1e6 m away.
     auto text = [](double shift) {
         char buffer[500];
-        snprintf(buffer, sizeof buffer,
-                 "{\"brume\":1,\"camera\":{\"vertical_fov\":50,\"camera_to_world\":[[1,0,0,%.17g],[0,1,0,%.17g],[0,0,1,%.17g],[0,0,0,1]]},"
-                 "\"medium\":{\"scattering\":0.05,\"density\":[{\"type\":\"exponential\",\"falloff\":0.2,\"direction\":[0,1,0],"
-                 "\"origin\":[%.17g,%.17g,%.17g]}]}}",
-                 shift, shift + 2, -shift, shift, shift, -shift);
+        snprintf(
+            buffer, sizeof buffer,
+            "{\"brume\":1,\"camera\":{\"vertical_fov\":50,\"camera_to_world\":[[1,0,0,%.17g],[0,1,0,%.17g],[0,0,1,%.17g],[0,"
+            "0,0,1]]},"
+            "\"medium\":{\"scattering\":0.05,\"density\":[{\"type\":\"exponential\",\"falloff\":0.2,\"direction\":[0,1,0],"
+            "\"origin\":[%.17g,%.17g,%.17g]}]}}",
+            shift, shift + 2, -shift, shift, shift, -shift);
         return std::string(buffer);
     };
     Picture color(20, 20, 4, 1), depth(20, 20, 1, 30);
@@ -164,20 +173,27 @@ TEST(Fuzz, RandomMediaAndParameters)
 {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> u(0, 1);
-    auto magnitude = [&](double low, double high) { return u(random) < 0.1 ? 0.0 : std::pow(10, low + (high - low) * u(random)); };
+    auto magnitude = [&](double low, double high) {
+        return u(random) < 0.1 ? 0.0 : std::pow(10, low + (high - low) * u(random));
+    };
     for (int i = 0; i < 1500; ++i) {
         char medium[600], parameters[300];
-        snprintf(medium, sizeof medium,
-                 "\"scattering\":[%.6g,%.6g,%.6g],\"absorption\":[%.6g,%.6g,%.6g],\"g\":%.6g,\"density\":[{\"type\":\"constant\","
-                 "\"value\":%.6g},{\"type\":\"exponential\",\"value\":%.6g,\"falloff\":%.6g,\"direction\":[%.6g,%.6g,1e-3]}]",
-                 magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8),
-                 2 * u(random) - 1, magnitude(-20, 20), magnitude(-20, 20), magnitude(-9, 6), 2 * u(random) - 1, 2 * u(random) - 1);
-        const char *const sizes[] = {"2x2", "4x4", "6x6"}, *const fetches[] = {"linear_bilinear", "linear_bicubic", "cubic_bicubic"};
+        snprintf(
+            medium, sizeof medium,
+            "\"scattering\":[%.6g,%.6g,%.6g],\"absorption\":[%.6g,%.6g,%.6g],\"g\":%.6g,\"density\":[{\"type\":\"constant\","
+            "\"value\":%.6g},{\"type\":\"exponential\",\"value\":%.6g,\"falloff\":%.6g,\"direction\":[%.6g,%.6g,1e-3]}]",
+            magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8), magnitude(-12, 8),
+            2 * u(random) - 1, magnitude(-20, 20), magnitude(-20, 20), magnitude(-9, 6), 2 * u(random) - 1,
+            2 * u(random) - 1);
+        const char *const sizes[] = {"2x2", "4x4", "6x6"}, *const fetches[] = {"linear_bilinear", "linear_bicubic",
+                                                                               "cubic_bicubic"};
         snprintf(parameters, sizeof parameters,
-                 "\"kernel_size\":\"%s\",\"fetch\":\"%s\",\"masking\":%s,\"mask_width\":%.6g,\"level_scale\":%.6g,\"separation\":%s,"
+                 "\"kernel_size\":\"%s\",\"fetch\":\"%s\",\"masking\":%s,\"mask_width\":%.6g,\"level_scale\":%.6g,"
+                 "\"separation\":%s,"
                  "\"separation_luminance\":%.6g,\"separation_level\":%.6g,\"density_blurring\":%s",
-                 sizes[random() % 3], fetches[random() % 3], random() % 2 ? "true" : "false", 100 * u(random), 0.1 + 9.9 * u(random),
-                 random() % 2 ? "true" : "false", magnitude(-3, 9), u(random), random() % 2 ? "true" : "false");
+                 sizes[random() % 3], fetches[random() % 3], random() % 2 ? "true" : "false", 100 * u(random),
+                 0.1 + 9.9 * u(random), random() % 2 ? "true" : "false", magnitude(-3, 9), u(random),
+                 random() % 2 ? "true" : "false");
         Picture color(7, 5, 4), depth(7, 5, 1);
         for (float &v : color.data)
             v = float(magnitude(-30, 30)) * (random() % 8 ? 1.0f : -1.0f);

@@ -110,12 +110,14 @@ TEST_P(Backends, WhiteFurnace)
                 Picture color(w, h, 4, 3.5f), depth(w, h, 1);
                 for (float &d : depth.data)
                     d = u(random) < 0.2f ? INFINITY : 100 * u(random);
-                auto r = run(context(), scene("\"scattering\":0.02,\"g\":0.3", plain_filter + ",\"kernel_size\":\"" + size +
-                                                                                 "\",\"fetch\":\"" + fetch + "\""),
+                auto r = run(context(),
+                             scene("\"scattering\":0.02,\"g\":0.3",
+                                   plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                              color, depth, {{}, BRUME_OUTPUT_TRANSMITTANCE, 0});
                 // Depths differ per pixel, so L_sc varies; what is uniform is L. Only where all depths agree is L' = L.
-                auto same = run(context(), scene("\"scattering\":0.02,\"g\":0.3", plain_filter + ",\"kernel_size\":\"" + size +
-                                                                                    "\",\"fetch\":\"" + fetch + "\""),
+                auto same = run(context(),
+                                scene("\"scattering\":0.02,\"g\":0.3",
+                                      plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                                 color, constant_depth(w, h, 40), {ray_depth, 0, 0});
                 Worst worst = compare(same.output, color, 1e-3);
                 EXPECT_LT(worst.error, 2e-6) << w << "x" << h << " " << size << " " << fetch << " " << worst.describe();
@@ -145,8 +147,9 @@ TEST_P(Backends, EnergyBalanceOfOnePixel)
                 for (double sigma : {0.002, 0.008, 0.02}) {
                     Picture color(w, h, 4, 0);
                     color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
-                    auto r = run(context(), scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9",
-                                                  plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
+                    auto r = run(context(),
+                                 scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9",
+                                       plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                                  color, constant_depth(w, h, 20), {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
                     double expected = 1000 * -std::expm1(-sigma * 20);
                     EXPECT_NEAR(sum(r.scattered, 0) / expected, 1, 2e-3)
@@ -254,7 +257,8 @@ TEST_P(Backends, ResolutionInvariance)
                 difference += std::abs(a - b) / (3.0 * w * h);
                 error = std::max(error, std::abs(a - b));
             }
-    printf("1x against 2x: mean difference %.2f %% of the mean, largest %.2f of it\n", 100 * difference / mean, error / mean);
+    printf("1x against 2x: mean difference %.2f %% of the mean, largest %.2f of it\n", 100 * difference / mean,
+           error / mean);
     EXPECT_LT(difference / mean, 0.01);
 }
 
@@ -275,12 +279,13 @@ TEST_P(Backends, CropWithMarginEqualsTheWhole)
         }
     std::string s = scene("\"scattering\":0.02,\"g\":0.9", "\"levels\":4");
     auto whole = run(context(), s, color, depth);
-    auto part = run(context(), s, crop, crop_depth, {[&](brume_format &f) {
-                                                         f.display_x = -margin;
-                                                         f.display_width = w;
-                                                         f.display_height = h;
-                                                     },
-                                                     0, 0});
+    auto part = run(context(), s, crop, crop_depth,
+                    {[&](brume_format &f) {
+                         f.display_x = -margin;
+                         f.display_width = w;
+                         f.display_height = h;
+                     },
+                     0, 0});
     double error = 0;
     for (int y = 0; y < ch - 64; ++y)
         for (int x = 64; x < cw - 64; ++x)
@@ -318,10 +323,15 @@ TEST_P(Backends, DensityTimesCrossSectionIsAllThatCounts)
             depth.at(x, y)[0] = 400;
     Options blur{{}, BRUME_OUTPUT_BLUR_RADIUS, 0};
     auto one = run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7"), color, depth, blur);
-    auto two = run(context(), scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
-                   color, depth, blur);
-    auto limit = run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7,\"density\":[{\"type\":\"exponential\",\"falloff\":1e-9}]"),
-                     color, depth, blur);
+    auto two =
+        run(context(),
+            scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
+            color, depth, blur);
+    auto limit = run(
+        context(),
+        scene(
+            "\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7,\"density\":[{\"type\":\"exponential\",\"falloff\":1e-9}]"),
+        color, depth, blur);
     EXPECT_LT(compare(two.output, one.output, 1e-2).error, 1e-5);
     EXPECT_LT(compare(two.blur_radius, one.blur_radius, 1e-2).error, 1e-5);
     EXPECT_LT(compare(limit.output, one.output, 1e-2).error, 1e-3);
@@ -331,8 +341,11 @@ TEST_P(Backends, DensityTimesCrossSectionIsAllThatCounts)
 TEST_P(Backends, SkyBehindFiniteFogIsBlurred)
 {
     Picture color(60, 60, 4, 0.2f), depth = constant_depth(60, 60, INFINITY);
-    auto r = run(context(), scene("\"scattering\":0.02,\"g\":0.8,\"density\":[{\"type\":\"exponential\",\"falloff\":0.05,\"direction\":[0,1,0]}]"),
-                 color, depth, {{}, BRUME_OUTPUT_BLUR_RADIUS | BRUME_OUTPUT_OPTICAL_DEPTH, 0});
+    auto r = run(
+        context(),
+        scene(
+            "\"scattering\":0.02,\"g\":0.8,\"density\":[{\"type\":\"exponential\",\"falloff\":0.05,\"direction\":[0,1,0]}]"),
+        color, depth, {{}, BRUME_OUTPUT_BLUR_RADIUS | BRUME_OUTPUT_OPTICAL_DEPTH, 0});
     float w = r.blur_radius.at(30, 5)[0], tau = r.optical_depth.at(30, 5)[0];
     EXPECT_GT(tau, 0.5);
     EXPECT_LT(tau, 5);
@@ -344,7 +357,8 @@ TEST_P(Backends, EmissionSaturatesAtItsSourceFunction)
 {
     Picture color(4, 4, 4, 0);
     for (float d : {0.01f, 1.0f, 100.0f, INFINITY}) {
-        auto r = run(context(), scene("\"absorption\":0.05,\"emission\":[0.1,0.05,0]"), color, constant_depth(4, 4, d), {ray_depth, 0, 0});
+        auto r = run(context(), scene("\"absorption\":0.05,\"emission\":[0.1,0.05,0]"), color, constant_depth(4, 4, d),
+                     {ray_depth, 0, 0});
         double share = std::isinf(d) ? 1 : -std::expm1(-0.05 * d);
         EXPECT_NEAR(r.output.at(1, 1)[0], 2 * share, 2e-5 * share + 1e-9) << d;
         EXPECT_NEAR(r.output.at(1, 1)[1], 1 * share, 2e-5 * share + 1e-9) << d;
@@ -357,12 +371,14 @@ TEST_P(Backends, SkyOptions)
     Picture color(8, 8, 4, 1), depth = constant_depth(8, 8, INFINITY);
     std::string s = scene("\"absorption\":0.1");
     EXPECT_EQ(run(context(), s, color, depth).output.at(3, 3)[0], 0.0f);
-    EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }, 0, 0}).output.at(3, 3)[0], 1.0f);
-    auto clamped = run(context(), s, color, depth, {[](brume_format &f) {
-                                                        f.sky = BRUME_SKY_CLAMP;
-                                                        f.sky_distance = 5;
-                                                    },
-                                                    0, 0});
+    EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }, 0, 0}).output.at(3, 3)[0],
+              1.0f);
+    auto clamped = run(context(), s, color, depth,
+                       {[](brume_format &f) {
+                            f.sky = BRUME_SKY_CLAMP;
+                            f.sky_distance = 5;
+                        },
+                        0, 0});
     EXPECT_NEAR(clamped.output.at(3, 3)[0], std::exp(-0.5), 1e-5);
 }
 
@@ -376,7 +392,8 @@ TEST_P(Backends, SeparationKeepsTheGlowOfNearLightsBeforeAFarBackground)
             depth.at(x, y)[0] = 30;
         }
     auto glow = [&](const std::string &parameters) {
-        auto r = run(context(), scene("\"scattering\":0.01,\"g\":0.5", parameters), color, depth, {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
+        auto r = run(context(), scene("\"scattering\":0.01,\"g\":0.5", parameters), color, depth,
+                     {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
         double total = 0;
         for (int y = 0; y < 128; ++y)
             for (int x = 0; x < 128; ++x)

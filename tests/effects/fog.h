@@ -101,7 +101,8 @@ inline Result run(brume_context context, const std::string &scene_text, const Pi
                   const Options &options = {})
 {
     brume_scene scene = nullptr;
-    Context::check(brume_scene_create_from_text(context, scene_text.data(), scene_text.size(), "test.json", &scene), context);
+    Context::check(brume_scene_create_from_text(context, scene_text.data(), scene_text.size(), "test.json", &scene),
+                   context);
     std::unique_ptr<brume_scene_t, decltype(&brume_scene_destroy)> scene_guard(scene, brume_scene_destroy);
     brume_format format = BRUME_FORMAT_INIT;
     format.width = color.width;
@@ -143,7 +144,8 @@ inline Result run(brume_context context, const std::string &scene_text, const Pi
 inline std::string scene(const std::string &medium, const std::string &parameters = "")
 {
     return "{\"brume\":1,\"camera\":{\"vertical_fov\":50,\"camera_to_world\":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},"
-           "\"medium\":{" + medium + "},\"effects\":{\"multiscatter\":{" + parameters + "}}}";
+           "\"medium\":{" +
+           medium + "},\"effects\":{\"multiscatter\":{" + parameters + "}}}";
 }
 
 // Furthest relative deviation |a - b| / max(|b|, floor) and where; unequal classes (NaN, +-Inf) count as infinite.
@@ -155,7 +157,8 @@ struct Worst {
     std::string describe() const
     {
         char text[200];
-        snprintf(text, sizeof text, "worst %.3g at pixel (%d, %d) channel %d: %.9g, expected %.9g", error, x, y, channel, a, b);
+        snprintf(text, sizeof text, "worst %.3g at pixel (%d, %d) channel %d: %.9g, expected %.9g", error, x, y, channel, a,
+                 b);
         return text;
     }
 };
@@ -167,10 +170,10 @@ inline Worst compare(const Picture &a, const Picture &b, double floor)
         for (int x = 0; x < a.width; ++x)
             for (int c = 0; c < a.channels; ++c) {
                 double va = a.at(x, y)[c], vb = b.at(x, y)[c];
-                bool same_class = std::isnan(va) ? std::isnan(vb)
+                bool same_class = std::isnan(va)                                       ? std::isnan(vb)
                                   : std::isinf(va) || std::isinf(vb) || std::isnan(vb) ? va == vb
                                                                                        : true;
-                double error = !same_class ? INFINITY
+                double error = !same_class         ? INFINITY
                                : std::isfinite(va) ? std::abs(va - vb) / std::max(std::abs(vb), floor)
                                                    : 0;
                 if (error > worst.error)

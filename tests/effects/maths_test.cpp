@@ -183,7 +183,8 @@ TEST(Maths, SpreadIsEquationOneWithoutItsSingularities)
                     f32::Camera camera{};
                     camera.focal = f32::vec2(1000);
                     float w = f32::spread_pixels(n, camera, p);
-                    ASSERT_TRUE(std::isfinite(w) && w >= 0 && w <= f32::spread_limit) << ss << " " << sa << " " << g << " " << p;
+                    ASSERT_TRUE(std::isfinite(w) && w >= 0 && w <= f32::spread_limit)
+                        << ss << " " << sa << " " << g << " " << p;
                 }
 }
 

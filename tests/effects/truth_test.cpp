@@ -19,8 +19,8 @@ double rel_mse(const Picture &a, const Picture &b)
         for (int y = 0; y < half.height; ++y)
             for (int x = 0; x < half.width; ++x)
                 for (int c = 0; c < 3; ++c)
-                    half.at(x, y)[c] = 0.25f * (p.at(2 * x, 2 * y)[c] + p.at(2 * x + 1, 2 * y)[c] + p.at(2 * x, 2 * y + 1)[c] +
-                                                p.at(2 * x + 1, 2 * y + 1)[c]);
+                    half.at(x, y)[c] = 0.25f * (p.at(2 * x, 2 * y)[c] + p.at(2 * x + 1, 2 * y)[c] +
+                                                p.at(2 * x, 2 * y + 1)[c] + p.at(2 * x + 1, 2 * y + 1)[c]);
         for (int y = 0; y < half.height; ++y)
             for (int x = 0; x < half.width; ++x)
                 for (int c = 0; c < 3; ++c) {
@@ -66,7 +66,8 @@ TEST(Truth, PaperKernelOnPathTracedScenes)
             scene["medium"] = description["medium"];
             scene["medium"].erase("orders");
             std::string clear = folder / (std::string(name) + "_clear.exr");
-            Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}), truth = read_exr(file + ".exr", {"R", "G", "B"});
+            Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}),
+                    truth = read_exr(file + ".exr", {"R", "G", "B"});
             Picture color_rgb = read_exr(clear, {"R", "G", "B"});
             double fogged = rel_mse(run(cpu(), scene.dump(), color, depth).output, truth), none = rel_mse(color_rgb, truth);
             printf("%s %s: relMSE %.3f, without fog %.3f\n", name, medium, fogged, none);

@@ -18,8 +18,11 @@ std::vector<float> scaled(Backend &backend, float factor)
         const brume_image image = host_image(values.data(), width, height, 4);
         auto from = backend.import(image, 4);
         auto to = backend.begin_output(image, 4, false);
-        Pass("scale", *program, width, height).bind("source", *from, BRUME_ACCESS_FETCH)
-            .bind("target", *to, BRUME_ACCESS_WRITE).set("factor", std::vector{factor}).run(backend);
+        Pass("scale", *program, width, height)
+            .bind("source", *from, BRUME_ACCESS_FETCH)
+            .bind("target", *to, BRUME_ACCESS_WRITE)
+            .set("factor", std::vector{factor})
+            .run(backend);
         backend.finish_output(image, *to);
         backend.flush();
     });
@@ -127,18 +130,14 @@ TEST(Borrowed, RefusesOtherApis)
 
 struct Logged {
     std::vector<std::string> messages;
-    static void add(void *user, uint32_t, const char *message)
-    {
-        static_cast<Logged *>(user)->messages.push_back(message);
-    }
+    static void add(void *user, uint32_t, const char *message) { static_cast<Logged *>(user)->messages.push_back(message); }
 };
 
 TEST(Borrowed, PendingErrorsOfTheHostAreReportedAndNotOurs)
 {
     HostContext host;
     Logged logged;
-    auto backend =
-        make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
+    auto backend = make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
     EXPECT_TRUE(logged.messages.empty());
     glEnable(GL_TEXTURE_2D + 12345);  // GL_INVALID_ENUM
     EXPECT_EQ(scaled(*backend, 2), expected(2));
@@ -151,8 +150,7 @@ TEST(Borrowed, DestroyedWithoutItsContext)
 {
     HostContext host;
     Logged logged;
-    auto backend =
-        make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
+    auto backend = make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
     host.release();
     backend.reset();
     ASSERT_EQ(logged.messages.size(), 1u);
@@ -204,8 +202,7 @@ protected:
                     backend->import(image, channels);
             });
         });
-        EXPECT_TRUE(failure.status == BRUME_OK || failure.message.find("texture") != std::string::npos)
-            << failure.message;
+        EXPECT_TRUE(failure.status == BRUME_OK || failure.message.find("texture") != std::string::npos) << failure.message;
         return failure.message;
     }
 };
@@ -287,8 +284,11 @@ TEST_F(Textures, DepthIsReadAsItIs)
             const brume_image output = host_image(values.data(), width, height, 1);
             auto from = backend->import(texture_image(depth, width, height, 1), 1);
             auto to = backend->begin_output(output, 1, true);
-            Pass("scale", *program, width, height).bind("source", *from, BRUME_ACCESS_FETCH)
-                .bind("target", *to, BRUME_ACCESS_WRITE).set("factor", std::vector{1.0f}).run(*backend);
+            Pass("scale", *program, width, height)
+                .bind("source", *from, BRUME_ACCESS_FETCH)
+                .bind("target", *to, BRUME_ACCESS_WRITE)
+                .set("factor", std::vector{1.0f})
+                .run(*backend);
             backend->finish_output(output, *to);
         });
         for (float got : values)
@@ -328,8 +328,11 @@ TEST_F(Textures, ScalarOutputs)
         auto from = backend->import(host_image(values.data(), width, height, 1), 1);
         auto to = backend->begin_output(output, 1, true);
         EXPECT_EQ(to->channels, 1);
-        Pass("scale", *program, width, height).bind("source", *from, BRUME_ACCESS_FETCH)
-            .bind("target", *to, BRUME_ACCESS_WRITE).set("factor", std::vector{2.0f}).run(*backend);
+        Pass("scale", *program, width, height)
+            .bind("source", *from, BRUME_ACCESS_FETCH)
+            .bind("target", *to, BRUME_ACCESS_WRITE)
+            .set("factor", std::vector{2.0f})
+            .run(*backend);
         backend->finish_output(output, *to);
         backend->copy(output, host_image(back.data(), width, height, 4));
     });

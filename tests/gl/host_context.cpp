@@ -22,8 +22,7 @@ HostContext::HostContext(Profile profile)
                               EGL_NONE};
     const EGLint embedded[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     eglBindAPI(profile == Profile::es ? EGL_OPENGL_ES_API : EGL_OPENGL_API);
-    context_ =
-        eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, profile == Profile::es ? embedded : desktop);
+    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, profile == Profile::es ? embedded : desktop);
     if (context_ == EGL_NO_CONTEXT)
         throw std::runtime_error("no OpenGL context for the test");
     make_current();

@@ -36,17 +36,16 @@ protected:
 
 std::string storing(const std::string &expression, const std::string &before = "")
 {
-    return before + "\nwriteonly uniform image2D result;\nvoid main() { imageStore(result, ivec2(0), vec4(" +
-           expression + ")); }\n";
+    return before + "\nwriteonly uniform image2D result;\nvoid main() { imageStore(result, ivec2(0), vec4(" + expression +
+           ")); }\n";
 }
 
 TEST_F(Programs, DefinesAndIncludes)
 {
     EXPECT_EQ(evaluate(storing("VALUE"), "#define VALUE 3.5"), 3.5f);
     EXPECT_EQ(evaluate(storing("VALUE"), "#define VALUE 4.5\n#define OTHER\n"), 4.5f);
-    EXPECT_EQ(
-        evaluate(storing("float(max_density_terms)", "#include \"scene.glsl\"\n  # include \"scene.glsl\" // again")),
-        16.0f);
+    EXPECT_EQ(evaluate(storing("float(max_density_terms)", "#include \"scene.glsl\"\n  # include \"scene.glsl\" // again")),
+              16.0f);
 }
 
 TEST_F(Programs, ErrorsNameTheFileAndLine)
@@ -114,10 +113,9 @@ TEST_F(Programs, SceneUniforms)
     scene.camera.center[1] = 7;
     scene.camera.sky = 2;
     scene.output_limit = 65504;
-    const std::string at =
-        storing("brume_medium.scattering.y * 1000.0 + brume_medium.terms[brume_medium.term_count - 1].w "
-                "* 100.0 + brume_camera.center.y * 10.0 + float(brume_camera.sky)",
-                declared);
+    const std::string at = storing("brume_medium.scattering.y * 1000.0 + brume_medium.terms[brume_medium.term_count - 1].w "
+                                   "* 100.0 + brume_camera.center.y * 10.0 + float(brume_camera.sky)",
+                                   declared);
     EXPECT_EQ(evaluate(at, "", scene), 2572.0f);
     scene.camera.sky = 1;
     EXPECT_EQ(evaluate(at, "", scene), 2571.0f);

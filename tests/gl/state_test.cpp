@@ -31,8 +31,11 @@ void run_frame(Backend &backend, const brume_image &texture)
             timer->mark(0);
             auto from = backend.import(host_image(const_cast<float *>(source.data()), width, height, 4), 4);
             auto to = backend.begin_output(output, 4, true);
-            Pass("scale", *program, width, height).bind("source", *from, BRUME_ACCESS_LINEAR)
-                .bind("target", *to, BRUME_ACCESS_WRITE).set("factor", std::vector{2.0f}).run(backend);
+            Pass("scale", *program, width, height)
+                .bind("source", *from, BRUME_ACCESS_LINEAR)
+                .bind("target", *to, BRUME_ACCESS_WRITE)
+                .set("factor", std::vector{2.0f})
+                .run(backend);
             backend.finish_output(output, *to);
         }
         timer->end();
@@ -85,7 +88,8 @@ TEST_P(State, PreserveRestoresAllOfIt)
                           auto scratch = backend->import(image, 4);
                           backend->compile("broken", "nonsense", "");
                       });
-                  }).status, BRUME_ERROR_GL);
+                  }).status,
+                  BRUME_ERROR_GL);
         EXPECT_EQ(difference(before, read_state(GetParam())), "") << "by a failing call";
     }
     EXPECT_EQ(difference(before, read_state(GetParam())), "") << "by destroying the backend";
@@ -133,8 +137,7 @@ TEST_P(State, OwnedStillComputesRight)
 
 TEST_P(State, WorksInsideTransformFeedback)
 {
-    const char *source =
-        "#version 450 core\nout float captured;\nvoid main() { captured = 1.0; gl_Position = vec4(0); }\n";
+    const char *source = "#version 450 core\nout float captured;\nvoid main() { captured = 1.0; gl_Position = vec4(0); }\n";
     const GLuint shader = glCreateShader(GL_VERTEX_SHADER), program = glCreateProgram();
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);

@@ -19,9 +19,12 @@ struct Layout {
 };
 
 constexpr Layout layouts[] = {
-    {"packed", 0, 0, false, false},        {"whole pixels between rows", 0, 48, false, false},
-    {"bytes between rows", 0, 5, false, false}, {"samples between pixels", 8, 0, false, false},
-    {"odd bytes between pixels", 3, 7, false, false}, {"bottom row first", 0, 0, true, false},
+    {"packed", 0, 0, false, false},
+    {"whole pixels between rows", 0, 48, false, false},
+    {"bytes between rows", 0, 5, false, false},
+    {"samples between pixels", 8, 0, false, false},
+    {"odd bytes between pixels", 3, 7, false, false},
+    {"bottom row first", 0, 0, true, false},
     {"right to left", 4, 12, true, true},
 };
 
@@ -124,19 +127,21 @@ TEST_F(Transfer, ImagesLargerThanOneBand)
 // The shader's rounding, or the driver's where it was found to be right, against the CPU backend's.
 TEST_F(Transfer, FloatsBecomeTheNearestHalves)
 {
-    std::vector<float> floats = {0.0f, -0.0f, 65504.0f, 65519.996f, 65520.0f, -65520.0f, 1e30f, INFINITY, -INFINITY,
-                                 0x1p-24f, 0x1p-25f, 0x1.000002p-25f, 0x3p-25f, -0x3p-25f, 0x1p-14f, 0x1.ffcp-15f,
-                                 0x1.ffep-15f, 1.0f + 0x1p-11f, 1.0f + 0x3p-11f, 1e-30f, 0x1p-140f};
+    std::vector<float> floats = {
+        0.0f,     -0.0f,        65504.0f,     65519.996f,      65520.0f,        -65520.0f, 1e30f,
+        INFINITY, -INFINITY,    0x1p-24f,     0x1p-25f,        0x1.000002p-25f, 0x3p-25f,  -0x3p-25f,
+        0x1p-14f, 0x1.ffcp-15f, 0x1.ffep-15f, 1.0f + 0x1p-11f, 1.0f + 0x3p-11f, 1e-30f,    0x1p-140f};
     std::mt19937 random(1);
     std::uniform_real_distribution<float> exponent(-27.0f, 17.0f), sign(-1.0f, 1.0f);
     while (floats.size() < 4096)
         floats.push_back(std::exp2(exponent(random)) * sign(random));
     std::vector<uint16_t> halves(floats.size());
-    backend->invoke([&] {
-        backend->copy(host_image(floats.data(), 64, 16, 4), host_image(halves.data(), 64, 16, 4, BRUME_PIXEL_F16));
-    });
+    backend->invoke(
+        [&] { backend->copy(host_image(floats.data(), 64, 16, 4), host_image(halves.data(), 64, 16, 4, BRUME_PIXEL_F16)); });
     for (size_t i = 0; i < floats.size(); ++i)
-        ASSERT_EQ(halves[i], float_to_half(std::isfinite(floats[i]) ? std::clamp(floats[i], -65504.0f, 65504.0f) : floats[i])) << floats[i];
+        ASSERT_EQ(halves[i],
+                  float_to_half(std::isfinite(floats[i]) ? std::clamp(floats[i], -65504.0f, 65504.0f) : floats[i]))
+            << floats[i];
 
     // An effect's output of halves rounds the same way.
     std::vector<uint16_t> written(floats.size());

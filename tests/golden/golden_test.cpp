@@ -31,7 +31,8 @@ const Golden goldens[] = {
     {"paper_separation", "\"scattering\":0.05,\"g\":0.8",
      "\"separation\":true,\"separation_luminance\":4,\"separation_density\":60"},
     {"paper_furnace", "\"visibility\":80,\"g\":0.8", "\"masking\":false,\"density_blurring\":false"},
-    {"paper_emission", "\"scattering\":0.02,\"absorption\":0.01,\"emission\":[0.004,0.005,0.008],\"droplet_diameter\":12", ""},
+    {"paper_emission", "\"scattering\":0.02,\"absorption\":0.01,\"emission\":[0.004,0.005,0.008],\"droplet_diameter\":12",
+     ""},
     {"reference", "\"scattering\":0.02,\"absorption\":0.01,\"g\":0.9", "\"kernel\":\"reference\""},
 };
 
@@ -65,8 +66,10 @@ const Input &input()
 std::string text_of(const Golden &golden)
 {
     // A camera 1.7 m up that looks along +y in a world whose z is up.
-    return std::string("{\"brume\":1,\"camera\":{\"vertical_fov\":36,\"camera_to_world\":[[1,0,0,0],[0,0,-1,0],[0,1,0,1.7],[0,0,0,1]]},"
-                       "\"medium\":{") + golden.medium + "},\"effects\":{\"multiscatter\":{" + golden.parameters + "}}}";
+    return std::string("{\"brume\":1,\"camera\":{\"vertical_fov\":36,\"camera_to_world\":[[1,0,0,0],[0,0,-1,0],[0,1,0,1.7],["
+                       "0,0,0,1]]},"
+                       "\"medium\":{") +
+           golden.medium + "},\"effects\":{\"multiscatter\":{" + golden.parameters + "}}}";
 }
 
 class GoldenTest : public testing::TestWithParam<Golden> {
@@ -89,10 +92,12 @@ protected:
         std::filesystem::create_directories(BRUME_FAILURES_DIR);
         std::string base = std::string(BRUME_FAILURES_DIR) + "/" + name + "." + backend;
         write_exr(base + ".exr", actual, rgb);
-        std::string command = std::string(BRUME_TOOL) + " compare " + base + ".exr " + golden + " -d " + base + ".difference.png";
+        std::string command =
+            std::string(BRUME_TOOL) + " compare " + base + ".exr " + golden + " -d " + base + ".difference.png";
         int drawn = std::system(command.c_str());
-        ADD_FAILURE() << name << " on " << backend << ": " << worst.describe() << "; allowed " << bound << "\n  golden " << golden
-                      << "\n  now " << base << ".exr\n  difference " << (drawn == 0 ? base + ".difference.png" : "could not be drawn");
+        ADD_FAILURE() << name << " on " << backend << ": " << worst.describe() << "; allowed " << bound << "\n  golden "
+                      << golden << "\n  now " << base << ".exr\n  difference "
+                      << (drawn == 0 ? base + ".difference.png" : "could not be drawn");
     }
 };
 

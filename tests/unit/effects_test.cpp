@@ -112,14 +112,12 @@ TEST_F(EffectsTest, RefusesWithTheReason)
         {"infinite_range", "parameter \"second\": range 0 to inf, default 0.5; expected finite numbers"},
         {"half_integer", "parameter \"second\": range 0 to 1, default 0.5; expected integers"},
         {"bad_type", "parameter \"second\".type: 99; expected a BRUME_PARAMETER_... of this library"},
-        {"empty_choice",
-         "parameter \"second\".choices: \"paper||reference\"; expected words of letters, digits and _-+. "
-         "with | between them"},
+        {"empty_choice", "parameter \"second\".choices: \"paper||reference\"; expected words of letters, digits and _-+. "
+                         "with | between them"},
         {"choice_twice", "parameter \"second\".choices: \"paper|paper\"; \"paper\" is there twice"},
         {"default_choice_missing", "parameter \"second\": default 2; expected one in the range 0 to 1"},
-        {"choices_of_number",
-         "parameter \"second\".choices: \"paper|reference\"; expected \"\" for a parameter that is "
-         "no choice"},
+        {"choices_of_number", "parameter \"second\".choices: \"paper|reference\"; expected \"\" for a parameter that is "
+                              "no choice"},
         {"bad_stride", "parameters[1].struct_size: 7; expected " + std::to_string(sizeof(brume_parameter_info))},
         {"well_behaved_again",
          "the effect \"well_behaved\" is there already, from " BRUME_TEST_PLUGIN_DIR "/well_behaved.so"},
@@ -225,8 +223,7 @@ TEST_F(EffectsTest, ParametersFromNumbers)
     EXPECT_EQ(check(0, 10.0), 10.0);
     EXPECT_EQ(check(2, 1.0), 1.0);
     EXPECT_EQ(check(3, 0.0), 0.0);
-    EXPECT_EQ(error_of(BRUME_ERROR_ARGUMENT, [&] { check(2, 0.5); }),
-              "well_behaved.masking: 0.5; expected true or false");
+    EXPECT_EQ(error_of(BRUME_ERROR_ARGUMENT, [&] { check(2, 0.5); }), "well_behaved.masking: 0.5; expected true or false");
     EXPECT_EQ(error_of(BRUME_ERROR_ARGUMENT, [&] { check(3, 2.0); }),
               "well_behaved.kernel: 2; expected one of paper, reference");
 }

@@ -122,10 +122,8 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("medium": {"scattering": "thick"})",
          R"(2:26: medium.scattering: "thick"; expected a number from 0 to 1e+30, [r, g, b], or )"
          R"({"keys": [[frame, value], ...]})"},
-        {R"("medium": {"scattering": [1, 2]})",
-         "2:26: medium.scattering: an array of 2; expected an array of 3 numbers"},
-        {R"("medium": {"scattering": [1, -0.5, 2]})",
-         "2:30: medium.scattering[1]: -0.5; expected a number from 0 to 1e+30"},
+        {R"("medium": {"scattering": [1, 2]})", "2:26: medium.scattering: an array of 2; expected an array of 3 numbers"},
+        {R"("medium": {"scattering": [1, -0.5, 2]})", "2:30: medium.scattering[1]: -0.5; expected a number from 0 to 1e+30"},
         {R"("medium": {"scattering": [1, 1e31, 2]})",
          "2:30: medium.scattering[1]: 1e+31; expected a number from 0 to 1e+30"},
         {R"("medium": {"g": 1.5})", "2:17: medium.g: 1.5; expected a number from -1 to 1"},
@@ -155,8 +153,7 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
          "2:26: medium.g.keys: an array of 0; expected [frame, value] pairs, one at least"},
         {R"("medium": {"g": {"keys": [[1, 0], [1, 0.5]]}})",
          "2:36: medium.g.keys[1][0]: 1; expected a frame after 1: keys ascend"},
-        {R"("medium": {"g": {"keys": [[1, 0], [2, 5]]}})",
-         "2:39: medium.g.keys[1][1]: 5; expected a number from -1 to 1"},
+        {R"("medium": {"g": {"keys": [[1, 0], [2, 5]]}})", "2:39: medium.g.keys[1][1]: 5; expected a number from -1 to 1"},
         {R"("medium": {"g": {"keys": [[1, 0, 0]]}})",
          "2:27: medium.g.keys[0]: an array of 3; expected a [frame, value] pair"},
         {R"("medium": {"g": {"key": [[1, 0]]}})", R"(2:18: unknown key "key"; did you mean "keys"?)"},
@@ -164,8 +161,7 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("metres_per_unit": 0)", "2:20: metres_per_unit: 0; expected a number from 1e-30 to 1e+30"},
         {R"("metres_per_unit": {"keys": [[1, 1]]})",
          "2:20: metres_per_unit: an object; expected a number from 1e-30 to 1e+30"},
-        {R"("camera": {"vertical_fov": 180})",
-         "2:28: camera.vertical_fov: 180; expected a number above 0 and below 180"},
+        {R"("camera": {"vertical_fov": 180})", "2:28: camera.vertical_fov: 180; expected a number above 0 and below 180"},
         {R"("camera": {"vertical_fov": 50, "horizontal_fov": 80})",
          R"(2:32: "horizontal_fov" beside "vertical_fov"; expected one of them: they say the same thing)"},
         {R"("camera": {"center": [0.5]})", "2:22: camera.center: an array of 1; expected an array of 2 numbers"},
@@ -188,10 +184,8 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
          "columns, "
          "determinant 1, last row 0 0 0 1"},
         {R"("lights": {})", "2:11: lights: an object; expected an array of lights"},
-        {R"("lights": [{"type": "lamp"}])",
-         R"(2:21: lights[0].type: "lamp"; expected "point", "spot" or "directional")"},
-        {R"("lights": [{"type": "point", "position": [0,0,0]}])",
-         R"(2:12: lights[0]: has no "intensity"; expected one)"},
+        {R"("lights": [{"type": "lamp"}])", R"(2:21: lights[0].type: "lamp"; expected "point", "spot" or "directional")"},
+        {R"("lights": [{"type": "point", "position": [0,0,0]}])", R"(2:12: lights[0]: has no "intensity"; expected one)"},
         {R"("lights": [{"type": "point", "direction": [0,0,1]}])",
          R"(2:30: unknown key "direction"; expected one of type, intensity, position, radius)"},
         {R"("effects": {"wel_behaved": {}})", R"(2:13: no effect "wel_behaved"; did you mean "well_behaved"?)"},
@@ -202,8 +196,7 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
          "2:40: effects.well_behaved.levels: 2.5; expected an integer from 1 to 12"},
         {R"("effects": {"well_behaved": {"levels": "2"}})",
          R"(2:40: effects.well_behaved.levels: "2"; expected an integer from 1 to 12)"},
-        {R"("effects": {"well_behaved": {"masking": 1}})",
-         "2:41: effects.well_behaved.masking: 1; expected true or false"},
+        {R"("effects": {"well_behaved": {"masking": 1}})", "2:41: effects.well_behaved.masking: 1; expected true or false"},
         {R"("effects": {"well_behaved": {"kernel": "papr"}})",
          R"(2:40: effects.well_behaved.kernel: "papr"; expected one of paper, reference)"},
         {R"("effects": {"well_behaved": {"kernel": 0}})",
@@ -217,8 +210,7 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("medium": {"g": NaN})", "2:17: syntax error while parsing value - invalid literal"},
         {R"("medium": {"g": 1e999})", "2:21: a number beyond the range of a double"},
         {R"("medium": {} /* fog */)", "2:14: syntax error while parsing object - invalid literal; expected '}'"},
-        {"\"medium\": {\"g\": \"\xff\"}",
-         "2:18: syntax error while parsing value - invalid string: ill-formed UTF-8 byte"},
+        {"\"medium\": {\"g\": \"\xff\"}", "2:18: syntax error while parsing value - invalid string: ill-formed UTF-8 byte"},
     };
     for (const BadScene &bad : cases)
         EXPECT_EQ(failure(with(bad.line)), std::string("fog.json:") + bad.message) << bad.line;
@@ -226,14 +218,12 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
 
 TEST(SceneFile, RefusesWhatIsNoScene)
 {
-    EXPECT_EQ(failure(""),
-              "fog.json:1:1: syntax error while parsing value - unexpected end of input; expected '[', '{', "
-              "or a literal");
+    EXPECT_EQ(failure(""), "fog.json:1:1: syntax error while parsing value - unexpected end of input; expected '[', '{', "
+                           "or a literal");
     EXPECT_EQ(failure("{}"), "fog.json:1:1: has no \"brume\"; expected one");
     EXPECT_EQ(failure("[]"), "fog.json:1:1: an array of 0; expected an object");
     EXPECT_EQ(failure("{\"brume\": 2}"), "fog.json:1:11: brume: 2; expected 1, the version of this file format");
-    EXPECT_EQ(failure("{\"brume\": \"1\"}"),
-              "fog.json:1:11: brume: \"1\"; expected 1, the version of this file format");
+    EXPECT_EQ(failure("{\"brume\": \"1\"}"), "fog.json:1:11: brume: \"1\"; expected 1, the version of this file format");
     EXPECT_EQ(failure("{\"brume\": 1} x"),
               "fog.json:1:14: syntax error while parsing value - invalid literal; expected end of input");
     EXPECT_EQ(failure(std::string("{\"brume\": 1}\0x", 14)), "fog.json:1:13: NUL byte; expected JSON text");

@@ -59,8 +59,7 @@ public:
         const Vector x =
             normalized({any[1] * z[2] - any[2] * z[1], any[2] * z[0] - any[0] * z[2], any[0] * z[1] - any[1] * z[0]});
         const Vector y{z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]};
-        return {x[0], y[0], z[0], position[0], x[1], y[1], z[1], position[1],
-                x[2], y[2], z[2], position[2], 0,    0,    0,    1};
+        return {x[0], y[0], z[0], position[0], x[1], y[1], z[1], position[1], x[2], y[2], z[2], position[2], 0, 0, 0, 1};
     }
 
 private:
@@ -140,8 +139,7 @@ void expect_same_integrals(const Scene &scene, const Matrix &pose, double distan
             return density_at(scene, {position[0] + t * w[0], position[1] + t * w[1], position[2] + t * w[2]});
         };
         const double expected = integrate(along, 0.0, distance, 2000);
-        const double got =
-            maths_double::density_integral(evaluated, {in_camera[0], in_camera[1], in_camera[2]}, distance);
+        const double got = maths_double::density_integral(evaluated, {in_camera[0], in_camera[1], in_camera[2]}, distance);
         EXPECT_NEAR(got / expected, 1.0, tolerance) << "ray " << ray << " distance " << distance;
     }
 }
@@ -242,8 +240,7 @@ TEST(EvaluateMedium, DensityIntegralsAreThoseOfTheDefinition)
                 x = random.uniform(-10, 10) * units;
             scene.medium->density.push_back(exponential(random.uniform(0.1, 2), random.uniform(0, 0.5), n, origin));
         }
-        const Vector position{random.uniform(-5, 5) * units, random.uniform(-5, 5) * units,
-                              random.uniform(-5, 5) * units};
+        const Vector position{random.uniform(-5, 5) * units, random.uniform(-5, 5) * units, random.uniform(-5, 5) * units};
         expect_same_integrals(scene, random.pose(position), random.uniform(0.1, 60), random);
     }
 }
@@ -253,8 +250,7 @@ TEST(EvaluateMedium, FarFromTheOrigin)
     Random random;
     const Vector far{1e6, -1e6, 1e6};
     const Vector near_camera{1e6 + 3, -1e6 + 2, 1e6 - 1};
-    const Scene beside =
-        scene_with({exponential(1, 0.25, {0, 0, 1}, near_camera), exponential(0.5, 1, {1, 1, 0}, far)});
+    const Scene beside = scene_with({exponential(1, 0.25, {0, 0, 1}, near_camera), exponential(0.5, 1, {1, 1, 0}, far)});
     expect_same_integrals(beside, random.pose(far), 20.0, random);
     const Scene haze = scene_with({exponential(1, 1e-5, {0, 1, 0.5}, {0, 0, 0})});
     expect_same_integrals(haze, random.pose(far), 1e6, random);
@@ -272,8 +268,8 @@ TEST(EvaluateMedium, DropletsHaveTheMeanCosineOfTheirPhaseFunction)
         const auto moment = [&](double g, double a, int power) {
             const auto integrand = [&](double s) {
                 const double cosine = 1.0 - 2.0 * std::pow(s, 4), jacobian = 8.0 * std::pow(s, 3);
-                const double phase = (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5) *
-                                     (1 + a * cosine * cosine) / (1 + a * (1 + 2 * g * g) / 3) / (4 * std::numbers::pi);
+                const double phase = (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5) * (1 + a * cosine * cosine) /
+                                     (1 + a * (1 + 2 * g * g) / 3) / (4 * std::numbers::pi);
                 return 2 * std::numbers::pi * phase * std::pow(cosine, power) * jacobian;
             };
             return integrate(integrand, 0.0, 1.0, 20000);
@@ -308,8 +304,7 @@ TEST(EvaluateMedium, RefusesWhatKeysLeadTo)
     Scene scene = scene_with({exponential(1, 1, {0, 1, 0}, {0, 0, 0})});
     scene.medium->density[0].direction[1].keys = {{1.0, 1.0}, {3.0, -1.0}};
     EXPECT_EQ(failure(scene, 1.0), "");
-    EXPECT_EQ(failure(scene, 2.0),
-              "medium.density[0].direction: (0, 0, 0) at frame 2; expected a vector that is not zero");
+    EXPECT_EQ(failure(scene, 2.0), "medium.density[0].direction: (0, 0, 0) at frame 2; expected a vector that is not zero");
 
     scene = scene_with({});
     scene.medium->scattering[1] = -1.0;
@@ -331,8 +326,8 @@ TEST(EvaluateMedium, ExtremesAreFinite)
             for (double length : extremes) {
                 for (double place : extremes) {
                     for (double metres : extremes) {
-                        Scene scene = scene_with({constant(value), exponential(value, falloff, {length, -length, 0},
-                                                                               {-place, place, place})});
+                        Scene scene = scene_with(
+                            {constant(value), exponential(value, falloff, {length, -length, 0}, {-place, place, place})});
                         scene.metres_per_unit = metres;
                         scene.medium->visibility = value;
                         Matrix pose = identity;

@@ -37,8 +37,7 @@ TEST(SceneSchema, ListsEveryParameterOfEveryEffect)
                                                         "default": 0.5, "description": "How much [stops]"})"));
     EXPECT_EQ(well_behaved["levels"], Json::parse(R"({"type": "integer", "minimum": 1, "maximum": 12, "default": 4,
                                                       "description": "How many"})"));
-    EXPECT_EQ(well_behaved["masking"],
-              Json::parse(R"({"type": "boolean", "default": true, "description": "Whether"})"));
+    EXPECT_EQ(well_behaved["masking"], Json::parse(R"({"type": "boolean", "default": true, "description": "Whether"})"));
     EXPECT_EQ(well_behaved["kernel"], Json::parse(R"({"enum": ["paper", "reference"], "default": "reference",
                                                       "description": "Which"})"));
 }

@@ -20,102 +20,125 @@ namespace ocio = OCIO_NAMESPACE;
 /// Pixels handed to OCIO at a time.
 constexpr std::size_t kRun = 1 << 14;
 
-void apply(const ocio::ConstCPUProcessorRcPtr& processor, float* pixels, std::size_t count, int channels) {
-  if (!processor) return;
-  oneapi::tbb::parallel_for(std::size_t(0), (count + kRun - 1) / kRun, [&](std::size_t run) {
-    const std::size_t n = std::min(kRun, count - run * kRun);
-    ocio::PackedImageDesc image(pixels + run * kRun * std::size_t(channels), long(n), 1, channels);
-    processor->apply(image);
-  });
+void apply(const ocio::ConstCPUProcessorRcPtr &processor, float *pixels, std::size_t count, int channels)
+{
+    if (!processor)
+        return;
+    oneapi::tbb::parallel_for(std::size_t(0), (count + kRun - 1) / kRun, [&](std::size_t run) {
+        const std::size_t n = std::min(kRun, count - run * kRun);
+        ocio::PackedImageDesc image(pixels + run * kRun * std::size_t(channels), long(n), 1, channels);
+        processor->apply(image);
+    });
 }
 
-LuminanceWeights normalized(LuminanceWeights w) {
-  // AP0's blue primary lies outside what can be seen, hence the negative weight.
-  for (double& v : w) v = std::max(v, 0.0);
-  const double sum = w[0] + w[1] + w[2];
-  if (!(sum > 0) || !std::isfinite(sum)) return kRec709Luminance;
-  for (double& v : w) v /= sum;
-  return w;
+LuminanceWeights normalized(LuminanceWeights w)
+{
+    // AP0's blue primary lies outside what can be seen, hence the negative weight.
+    for (double &v : w)
+        v = std::max(v, 0.0);
+    const double sum = w[0] + w[1] + w[2];
+    if (!(sum > 0) || !std::isfinite(sum))
+        return kRec709Luminance;
+    for (double &v : w)
+        v /= sum;
+    return w;
 }
 
-LuminanceWeights weights_of(const ocio::ConstConfigRcPtr& config) {
-  LuminanceWeights weights;
-  config->getDefaultLumaCoefs(weights.data());
-  if (!config->hasRole("aces_interchange")) return normalized(weights);
-  // Configs often leave the coefficients at Rec. 709's whatever their working space is: the interchange role is surer.
-  const auto to_ap0 = config->getProcessor(ocio::ROLE_SCENE_LINEAR, "aces_interchange")->getDefaultCPUProcessor();
-  constexpr double kAp0Luminance[3] = {0.3439664498, 0.7281660966, -0.0721325464};
-  for (std::size_t i = 0; i < 3; ++i) {
-    float rgb[3] = {0, 0, 0};
-    rgb[i] = 1;
-    to_ap0->applyRGB(rgb);
-    weights[i] = rgb[0] * kAp0Luminance[0] + rgb[1] * kAp0Luminance[1] + rgb[2] * kAp0Luminance[2];
-  }
-  return normalized(weights);
+LuminanceWeights weights_of(const ocio::ConstConfigRcPtr &config)
+{
+    LuminanceWeights weights;
+    config->getDefaultLumaCoefs(weights.data());
+    if (!config->hasRole("aces_interchange"))
+        return normalized(weights);
+    // Configs often leave the coefficients at Rec. 709's whatever their working space is: the interchange role is surer.
+    const auto to_ap0 = config->getProcessor(ocio::ROLE_SCENE_LINEAR, "aces_interchange")->getDefaultCPUProcessor();
+    constexpr double kAp0Luminance[3] = {0.3439664498, 0.7281660966, -0.0721325464};
+    for (std::size_t i = 0; i < 3; ++i) {
+        float rgb[3] = {0, 0, 0};
+        rgb[i] = 1;
+        to_ap0->applyRGB(rgb);
+        weights[i] = rgb[0] * kAp0Luminance[0] + rgb[1] * kAp0Luminance[1] + rgb[2] * kAp0Luminance[2];
+    }
+    return normalized(weights);
 }
 
 }  // namespace
 
-ColorManager::ColorManager(const ColorRequest& request) try {
-  const char* path = std::getenv("OCIO");
-  const bool from_environment = path && *path;
-  config_ = from_environment ? ocio::Config::CreateFromEnv() : builtin_config();
-  source_ = from_environment ? path : "the built-in config";
+ColorManager::ColorManager(const ColorRequest &request)
+try {
+    const char *path = std::getenv("OCIO");
+    const bool from_environment = path && *path;
+    config_ = from_environment ? ocio::Config::CreateFromEnv() : builtin_config();
+    source_ = from_environment ? path : "the built-in config";
 
-  const auto check = [&](const char* option, const std::string& space) {
-    if (space.empty() || config_->getColorSpace(space.c_str())) return;
-    std::string known;
-    for (int i = 0; i < config_->getNumColorSpaces(); ++i) known += fmt::format("{}{}", i ? ", " : "", config_->getColorSpaceNameByIndex(i));
-    throw RequestError(fmt::format("{} '{}' is not in {}; it has {}", option, space, source_, known));
-  };
-  check("--input-space", request.input_space);
-  check("--output-space", request.output_space);
+    const auto check = [&](const char *option, const std::string &space) {
+        if (space.empty() || config_->getColorSpace(space.c_str()))
+            return;
+        std::string known;
+        for (int i = 0; i < config_->getNumColorSpaces(); ++i)
+            known += fmt::format("{}{}", i ? ", " : "", config_->getColorSpaceNameByIndex(i));
+        throw RequestError(fmt::format("{} '{}' is not in {}; it has {}", option, space, source_, known));
+    };
+    check("--input-space", request.input_space);
+    check("--output-space", request.output_space);
 
-  const std::string working = ocio::ROLE_SCENE_LINEAR;
-  const std::string input = request.input_space.empty() ? working : request.input_space;
-  const std::string output = request.output_space.empty() ? input : request.output_space;
-  const auto processor = [&](const std::string& from, const std::string& to) -> ocio::ConstCPUProcessorRcPtr {
-    const auto p = config_->getProcessor(from.c_str(), to.c_str());
-    return p->isNoOp() ? nullptr : p->getDefaultCPUProcessor();
-  };
-  in_ = processor(input, working);
-  out_ = processor(working, output);
-  changes_space_ = !config_->getProcessor(input.c_str(), output.c_str())->isNoOp();
-  has_input_space_ = !request.input_space.empty();
+    const std::string working = ocio::ROLE_SCENE_LINEAR;
+    const std::string input = request.input_space.empty() ? working : request.input_space;
+    const std::string output = request.output_space.empty() ? input : request.output_space;
+    const auto processor = [&](const std::string &from, const std::string &to) -> ocio::ConstCPUProcessorRcPtr {
+        const auto p = config_->getProcessor(from.c_str(), to.c_str());
+        return p->isNoOp() ? nullptr : p->getDefaultCPUProcessor();
+    };
+    in_ = processor(input, working);
+    out_ = processor(working, output);
+    changes_space_ = !config_->getProcessor(input.c_str(), output.c_str())->isNoOp();
+    has_input_space_ = !request.input_space.empty();
 
-  const char* display = config_->getDefaultDisplay();
-  auto view = ocio::DisplayViewTransform::Create();
-  view->setSrc(working.c_str());
-  view->setDisplay(display);
-  view->setView(config_->getDefaultView(display));
-  view_ = config_->getProcessor(view)->getDefaultCPUProcessor();
-  weights_ = weights_of(config_);
-} catch (const ocio::Exception& e) {
-  throw RequestError(fmt::format("OpenColorIO, {}: {}", source_.empty() ? "$OCIO" : source_, e.what()));
+    const char *display = config_->getDefaultDisplay();
+    auto view = ocio::DisplayViewTransform::Create();
+    view->setSrc(working.c_str());
+    view->setDisplay(display);
+    view->setView(config_->getDefaultView(display));
+    view_ = config_->getProcessor(view)->getDefaultCPUProcessor();
+    weights_ = weights_of(config_);
+} catch (const ocio::Exception &e) {
+    throw RequestError(fmt::format("OpenColorIO, {}: {}", source_.empty() ? "$OCIO" : source_, e.what()));
 }
 
-void ColorManager::to_working(float* pixels, std::size_t count, int channels) const { apply(in_, pixels, count, channels); }
-
-void ColorManager::from_working(float* pixels, std::size_t count, int channels) const { apply(out_, pixels, count, channels); }
-
-LuminanceWeights ColorManager::luminance_weights(const Imf::Header& header) const {
-  if (has_input_space_ || !Imf::hasChromaticities(header)) return weights_;
-  const Imath::M44f to_xyz = Imf::RGBtoXYZ(Imf::chromaticities(header), 1);
-  return normalized({to_xyz[0][1], to_xyz[1][1], to_xyz[2][1]});
+void ColorManager::to_working(float *pixels, std::size_t count, int channels) const
+{
+    apply(in_, pixels, count, channels);
 }
 
-std::vector<std::uint8_t> ColorManager::to_display(const float* pixels, std::size_t count, int channels) const {
-  std::vector<float> rgb(3 * count);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = pixels[std::size_t(channels) * i + c];
-  apply(view_, rgb.data(), count, 3);
-  std::vector<std::uint8_t> out(rgb.size());
-  std::transform(rgb.begin(), rgb.end(), out.begin(), [](float v) {
-    return std::uint8_t(std::isnan(v) ? 0 : std::lround(std::clamp(v, 0.0f, 1.0f) * 255));
-  });
-  return out;
+void ColorManager::from_working(float *pixels, std::size_t count, int channels) const
+{
+    apply(out_, pixels, count, channels);
 }
 
-std::string ColorManager::description() const { return source_; }
+LuminanceWeights ColorManager::luminance_weights(const Imf::Header &header) const
+{
+    if (has_input_space_ || !Imf::hasChromaticities(header))
+        return weights_;
+    const Imath::M44f to_xyz = Imf::RGBtoXYZ(Imf::chromaticities(header), 1);
+    return normalized({to_xyz[0][1], to_xyz[1][1], to_xyz[2][1]});
+}
+
+std::vector<std::uint8_t> ColorManager::to_display(const float *pixels, std::size_t count, int channels) const
+{
+    std::vector<float> rgb(3 * count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            rgb[3 * i + c] = pixels[std::size_t(channels) * i + c];
+    apply(view_, rgb.data(), count, 3);
+    std::vector<std::uint8_t> out(rgb.size());
+    std::transform(rgb.begin(), rgb.end(), out.begin(),
+                   [](float v) { return std::uint8_t(std::isnan(v) ? 0 : std::lround(std::clamp(v, 0.0f, 1.0f) * 255)); });
+    return out;
+}
+
+std::string ColorManager::description() const
+{
+    return source_;
+}
 
 }  // namespace brume::tool

@@ -13,36 +13,36 @@
 namespace brume::tool {
 
 struct ColorRequest {
-  std::string input_space;   ///< empty: the pixels are in the config's scene_linear
-  std::string output_space;  ///< empty: what came in goes out
+    std::string input_space;   ///< empty: the pixels are in the config's scene_linear
+    std::string output_space;  ///< empty: what came in goes out
 };
 
 /// Colour spaces around the fog, by $OCIO or the built-in config. Const members may be called from several threads.
 class ColorManager {
- public:
-  explicit ColorManager(const ColorRequest& request = {});
+public:
+    explicit ColorManager(const ColorRequest &request = {});
 
-  /// In place, interleaved RGB or RGBA. Alpha is not touched.
-  void to_working(float* pixels, std::size_t count, int channels) const;
-  void from_working(float* pixels, std::size_t count, int channels) const;
+    /// In place, interleaved RGB or RGBA. Alpha is not touched.
+    void to_working(float *pixels, std::size_t count, int channels) const;
+    void from_working(float *pixels, std::size_t count, int channels) const;
 
-  /// Whether pixels leave in another space than they came in, so that `chromaticities` no longer holds.
-  bool changes_space() const { return changes_space_; }
+    /// Whether pixels leave in another space than they came in, so that `chromaticities` no longer holds.
+    bool changes_space() const { return changes_space_; }
 
-  /// Of the space that the fog works in. Without --input-space the file's own `chromaticities` decide, where it has them.
-  LuminanceWeights luminance_weights(const Imf::Header& header) const;
+    /// Of the space that the fog works in. Without --input-space the file's own `chromaticities` decide, where it has them.
+    LuminanceWeights luminance_weights(const Imf::Header &header) const;
 
-  /// From the working space through the default view of the default display; RGB, eight bits.
-  std::vector<std::uint8_t> to_display(const float* pixels, std::size_t count, int channels) const;
+    /// From the working space through the default view of the default display; RGB, eight bits.
+    std::vector<std::uint8_t> to_display(const float *pixels, std::size_t count, int channels) const;
 
-  std::string description() const;
+    std::string description() const;
 
- private:
-  OCIO_NAMESPACE::ConstConfigRcPtr config_;
-  OCIO_NAMESPACE::ConstCPUProcessorRcPtr in_, out_, view_;
-  LuminanceWeights weights_;
-  bool changes_space_ = false, has_input_space_ = false;
-  std::string source_;
+private:
+    OCIO_NAMESPACE::ConstConfigRcPtr config_;
+    OCIO_NAMESPACE::ConstCPUProcessorRcPtr in_, out_, view_;
+    LuminanceWeights weights_;
+    bool changes_space_ = false, has_input_space_ = false;
+    std::string source_;
 };
 
 }  // namespace brume::tool

@@ -12,88 +12,120 @@
 namespace brume::tool {
 namespace {
 
-bool parse_number(const std::string& text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+bool parse_number(const std::string &text, double &value)
+{
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
 constexpr std::string_view kExrColon = ".exr:";
 
 }  // namespace
 
-DepthKind DepthKind::parse(const std::string& text) {
-  if (text == "planar") return {kPlanar};
-  if (text == "ray") return {kRay};
-  if (text == "inverse") return {kInverse};
-  constexpr std::string_view prefix = "normalized:";
-  if (const auto comma = text.find(','); text.starts_with(prefix) && comma != std::string::npos) {
-    DepthKind kind{kNormalized};
-    if (parse_number(text.substr(prefix.size(), comma - prefix.size()), kind.near) &&
-        parse_number(text.substr(comma + 1), kind.far) && kind.near >= 0 && kind.far > kind.near)
-      return kind;
-  }
-  throw RequestError(fmt::format("--depth-kind '{}': expected planar, ray, inverse or normalized:NEAR,FAR with 0 <= NEAR < FAR", text));
+DepthKind DepthKind::parse(const std::string &text)
+{
+    if (text == "planar")
+        return {kPlanar};
+    if (text == "ray")
+        return {kRay};
+    if (text == "inverse")
+        return {kInverse};
+    constexpr std::string_view prefix = "normalized:";
+    if (const auto comma = text.find(','); text.starts_with(prefix) && comma != std::string::npos) {
+        DepthKind kind{kNormalized};
+        if (parse_number(text.substr(prefix.size(), comma - prefix.size()), kind.near) &&
+            parse_number(text.substr(comma + 1), kind.far) && kind.near >= 0 && kind.far > kind.near)
+            return kind;
+    }
+    throw RequestError(
+        fmt::format("--depth-kind '{}': expected planar, ray, inverse or normalized:NEAR,FAR with 0 <= NEAR < FAR", text));
 }
 
-std::string DepthKind::text() const {
-  switch (type) {
-    case kPlanar: return "planar";
-    case kRay: return "ray";
-    case kInverse: return "inverse";
-    default: return fmt::format("normalized:{},{}", near, far);
-  }
+std::string DepthKind::text() const
+{
+    switch (type) {
+    case kPlanar:
+        return "planar";
+    case kRay:
+        return "ray";
+    case kInverse:
+        return "inverse";
+    default:
+        return fmt::format("normalized:{},{}", near, far);
+    }
 }
 
-Sky Sky::parse(const std::string& text) {
-  if (text == "fog") return {kFog};
-  if (text == "keep") return {kKeep};
-  constexpr std::string_view prefix = "clamp:";
-  Sky sky{kClamp};
-  if (text.starts_with(prefix) && parse_number(text.substr(prefix.size()), sky.distance) && sky.distance > 0) return sky;
-  throw RequestError(fmt::format("--sky '{}': expected fog, keep or clamp:DISTANCE with DISTANCE > 0", text));
+Sky Sky::parse(const std::string &text)
+{
+    if (text == "fog")
+        return {kFog};
+    if (text == "keep")
+        return {kKeep};
+    constexpr std::string_view prefix = "clamp:";
+    Sky sky{kClamp};
+    if (text.starts_with(prefix) && parse_number(text.substr(prefix.size()), sky.distance) && sky.distance > 0)
+        return sky;
+    throw RequestError(fmt::format("--sky '{}': expected fog, keep or clamp:DISTANCE with DISTANCE > 0", text));
 }
 
-std::string Sky::text() const {
-  return type == kFog ? "fog" : type == kKeep ? "keep" : fmt::format("clamp:{}", distance);
+std::string Sky::text() const
+{
+    return type == kFog ? "fog" : type == kKeep ? "keep" : fmt::format("clamp:{}", distance);
 }
 
-void PictureOptions::add_to(CLI::App& command) {
-  command.add_option("--color", layers.color, "Layer that is the colour (default: root RGB, the default view, a sole RGB layer)")
-      ->type_name("LAYER");
-  command.add_option("--part", layers.part, "Part of a multi-part file, by name or index")->type_name("NAME");
-  command.add_option("--view", layers.view, "View of a stereo file")->type_name("NAME");
-  command.add_option("--depth", layers.depth, "Depth channel, exact name; FILE.exr:CHANNEL for a file of its own")->type_name("NAME");
-  command.add_option("--depth-kind", depth_kind_text, "planar, ray, inverse or normalized:NEAR,FAR")->capture_default_str()->type_name("KIND");
-  command.add_option("--far", far, "Distances from here on are sky, in scene units")->capture_default_str()->check(CLI::PositiveNumber);
-  command.add_option("--sky", sky_text, "fog, keep or clamp:DISTANCE")->capture_default_str()->type_name("HOW");
-  auto* fov = command.add_option("--vfov", vertical_fov, "Vertical field of view of the display window, in degrees")->type_name("DEG");
-  auto* camera = command.add_option("--camera", camera_file, "Camera from a JSON file or another EXR's metadata")->type_name("FILE");
-  fov->check([](const std::string& text) {
-    double value = 0;
-    return parse_number(text, value) && value > 0 && value < 180 ? "" : "expected degrees, above 0 and below 180";
-  });
-  fov->excludes(camera);
+void PictureOptions::add_to(CLI::App &command)
+{
+    command
+        .add_option("--color", layers.color,
+                    "Layer that is the colour (default: root RGB, the default view, a sole RGB layer)")
+        ->type_name("LAYER");
+    command.add_option("--part", layers.part, "Part of a multi-part file, by name or index")->type_name("NAME");
+    command.add_option("--view", layers.view, "View of a stereo file")->type_name("NAME");
+    command.add_option("--depth", layers.depth, "Depth channel, exact name; FILE.exr:CHANNEL for a file of its own")
+        ->type_name("NAME");
+    command.add_option("--depth-kind", depth_kind_text, "planar, ray, inverse or normalized:NEAR,FAR")
+        ->capture_default_str()
+        ->type_name("KIND");
+    command.add_option("--far", far, "Distances from here on are sky, in scene units")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command.add_option("--sky", sky_text, "fog, keep or clamp:DISTANCE")->capture_default_str()->type_name("HOW");
+    auto *fov = command.add_option("--vfov", vertical_fov, "Vertical field of view of the display window, in degrees")
+                    ->type_name("DEG");
+    auto *camera =
+        command.add_option("--camera", camera_file, "Camera from a JSON file or another EXR's metadata")->type_name("FILE");
+    fov->check([](const std::string &text) {
+        double value = 0;
+        return parse_number(text, value) && value > 0 && value < 180 ? "" : "expected degrees, above 0 and below 180";
+    });
+    fov->excludes(camera);
 }
 
-std::string PictureOptions::depth_file() const {
-  const auto at = layers.depth.find(kExrColon);
-  return at == std::string::npos ? "" : layers.depth.substr(0, at + kExrColon.size() - 1);
+std::string PictureOptions::depth_file() const
+{
+    const auto at = layers.depth.find(kExrColon);
+    return at == std::string::npos ? "" : layers.depth.substr(0, at + kExrColon.size() - 1);
 }
 
-LayerRequest PictureOptions::depth_request() const {
-  LayerRequest request = layers;
-  if (const auto at = layers.depth.find(kExrColon); at != std::string::npos) request.depth = layers.depth.substr(at + kExrColon.size());
-  return request;
+LayerRequest PictureOptions::depth_request() const
+{
+    LayerRequest request = layers;
+    if (const auto at = layers.depth.find(kExrColon); at != std::string::npos)
+        request.depth = layers.depth.substr(at + kExrColon.size());
+    return request;
 }
 
-Camera PictureOptions::camera_asked(const Imf::Header& header) const {
-  Camera camera;
-  if (!camera_file.empty()) camera = camera_from_file(camera_file, header);
-  if (vertical_fov > 0) {
-    camera.projection = Projection::from_vertical_fov(vertical_fov * std::numbers::pi / 180, header.displayWindow(), header.pixelAspectRatio());
-    camera.projection_source = "--vfov";
-  }
-  return camera;
+Camera PictureOptions::camera_asked(const Imf::Header &header) const
+{
+    Camera camera;
+    if (!camera_file.empty())
+        camera = camera_from_file(camera_file, header);
+    if (vertical_fov > 0) {
+        camera.projection = Projection::from_vertical_fov(vertical_fov * std::numbers::pi / 180, header.displayWindow(),
+                                                          header.pixelAspectRatio());
+        camera.projection_source = "--vfov";
+    }
+    return camera;
 }
 
 }  // namespace brume::tool

@@ -12,40 +12,40 @@ class App;
 namespace brume::tool {
 
 struct DepthKind {
-  enum Type { kPlanar, kRay, kInverse, kNormalized } type = kPlanar;
-  double near = 0, far = 1;  ///< of normalized depth
+    enum Type { kPlanar, kRay, kInverse, kNormalized } type = kPlanar;
+    double near = 0, far = 1;  ///< of normalized depth
 
-  static DepthKind parse(const std::string& text);
-  std::string text() const;
+    static DepthKind parse(const std::string &text);
+    std::string text() const;
 };
 
 struct Sky {
-  enum Type { kFog, kKeep, kClamp } type = kFog;
-  double distance = 0;  ///< of a clamped sky
+    enum Type { kFog, kKeep, kClamp } type = kFog;
+    double distance = 0;  ///< of a clamped sky
 
-  static Sky parse(const std::string& text);
-  std::string text() const;
+    static Sky parse(const std::string &text);
+    std::string text() const;
 };
 
 /// What the commands that look at one picture have in common.
 struct PictureOptions {
-  LayerRequest layers;
-  std::string depth_kind_text = "planar", sky_text = "fog", camera_file;
-  double far = 1e9;
-  double vertical_fov = 0;  ///< [degrees]; 0: not given
+    LayerRequest layers;
+    std::string depth_kind_text = "planar", sky_text = "fog", camera_file;
+    double far = 1e9;
+    double vertical_fov = 0;  ///< [degrees]; 0: not given
 
-  void add_to(CLI::App& command);
+    void add_to(CLI::App &command);
 
-  DepthKind depth_kind() const { return DepthKind::parse(depth_kind_text); }
-  Sky sky() const { return Sky::parse(sky_text); }
+    DepthKind depth_kind() const { return DepthKind::parse(depth_kind_text); }
+    Sky sky() const { return Sky::parse(sky_text); }
 
-  /// "FILE.exr:CHANNEL" names depth in a file of its own; empty where depth is in the picture's file.
-  std::string depth_file() const;
-  /// The request for depth's own file, or for the picture's.
-  LayerRequest depth_request() const;
+    /// "FILE.exr:CHANNEL" names depth in a file of its own; empty where depth is in the picture's file.
+    std::string depth_file() const;
+    /// The request for depth's own file, or for the picture's.
+    LayerRequest depth_request() const;
 
-  /// What goes before the scene's camera: --camera, then --vfov where that says nothing.
-  Camera camera_asked(const Imf::Header& header) const;
+    /// What goes before the scene's camera: --camera, then --vfov where that says nothing.
+    Camera camera_asked(const Imf::Header &header) const;
 };
 
 }  // namespace brume::tool

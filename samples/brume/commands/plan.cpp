@@ -17,68 +17,88 @@ namespace {
 using nlohmann::ordered_json;
 
 struct PlanOptions {
-  FogOptions fog;
-  std::string input;
-  bool json = false;
+    FogOptions fog;
+    std::string input;
+    bool json = false;
 };
 
-std::string camera_needs(std::uint32_t flags) {
-  const bool fov = flags & BRUME_CAMERA_FIELD_OF_VIEW, pose = flags & BRUME_CAMERA_POSE;
-  return fov && pose ? "field of view and pose" : fov ? "field of view" : pose ? "pose" : "nothing";
+std::string camera_needs(std::uint32_t flags)
+{
+    const bool fov = flags & BRUME_CAMERA_FIELD_OF_VIEW, pose = flags & BRUME_CAMERA_POSE;
+    return fov && pose ? "field of view and pose" : fov ? "field of view" : pose ? "pose" : "nothing";
 }
 
-int plan(const PlanOptions& options) {
-  const FilePattern pattern(options.input);
-  const FrameFile first = list_frames(pattern, pattern, "").front();
-  const OpenFrame open = open_frame(first, options.fog.picture, {});
-  const ColorManager colors;
-  Fogger fogger(options.fog);
-  const brume_plan plan = fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.header(open.color.part)));
+int plan(const PlanOptions &options)
+{
+    const FilePattern pattern(options.input);
+    const FrameFile first = list_frames(pattern, pattern, "").front();
+    const OpenFrame open = open_frame(first, options.fog.picture, {});
+    const ColorManager colors;
+    Fogger fogger(options.fog);
+    const brume_plan plan =
+        fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.header(open.color.part)));
 
-  brume_plan_info info = BRUME_PLAN_INFO_INIT;
-  check_request(fogger.context(), brume_plan_get_info(plan, &info), "plan");
-  brume_context_info device = BRUME_CONTEXT_INFO_INIT;
-  check_request(fogger.context(), brume_context_get_info(fogger.context(), &device), "plan");
-  ordered_json entries = ordered_json::array();
-  for (std::uint32_t i = 0; i < info.entry_count; ++i) {
-    brume_plan_entry e = BRUME_PLAN_ENTRY_INIT;
-    check_request(fogger.context(), brume_plan_get_entry(plan, i, &e), "plan");
-    entries.push_back({{"runs", e.runs != 0}, {"effect", e.effect}, {"pass", e.name}, {"reason", e.reason}, {"bytes", e.bytes},
-                       {"operations", e.operations}, {"predicted_ms", e.predicted_ms}});
-  }
-  const ordered_json out{{"scene", options.fog.scene}, {"input", first.input.string()}, {"backend", backend_name(device.backend)},
-                         {"device", device.device}, {"color", open.color.label()}, {"depth", open.depth.channel},
-                         {"does_nothing", info.does_nothing != 0}, {"needs_of_camera", camera_needs(info.camera_needs)},
-                         {"camera_reason", info.camera_reason}, {"image_bytes", info.image_bytes}, {"predicted_ms", info.predicted_ms},
-                         {"entries", entries}};
-  if (options.json) {
-    fmt::print("{}\n", out.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    check_request(fogger.context(), brume_plan_get_info(plan, &info), "plan");
+    brume_context_info device = BRUME_CONTEXT_INFO_INIT;
+    check_request(fogger.context(), brume_context_get_info(fogger.context(), &device), "plan");
+    ordered_json entries = ordered_json::array();
+    for (std::uint32_t i = 0; i < info.entry_count; ++i) {
+        brume_plan_entry e = BRUME_PLAN_ENTRY_INIT;
+        check_request(fogger.context(), brume_plan_get_entry(plan, i, &e), "plan");
+        entries.push_back({{"runs", e.runs != 0},
+                           {"effect", e.effect},
+                           {"pass", e.name},
+                           {"reason", e.reason},
+                           {"bytes", e.bytes},
+                           {"operations", e.operations},
+                           {"predicted_ms", e.predicted_ms}});
+    }
+    const ordered_json out{{"scene", options.fog.scene},
+                           {"input", first.input.string()},
+                           {"backend", backend_name(device.backend)},
+                           {"device", device.device},
+                           {"color", open.color.label()},
+                           {"depth", open.depth.channel},
+                           {"does_nothing", info.does_nothing != 0},
+                           {"needs_of_camera", camera_needs(info.camera_needs)},
+                           {"camera_reason", info.camera_reason},
+                           {"image_bytes", info.image_bytes},
+                           {"predicted_ms", info.predicted_ms},
+                           {"entries", entries}};
+    if (options.json) {
+        fmt::print("{}\n", out.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+        return kDone;
+    }
+    const PartInfo &part = open.file.parts()[open.color.part];
+    fmt::print("{} x {} pixels on {} ({})\n", part.width(), part.height(), backend_name(device.backend), device.device);
+    fmt::print("colour {}; depth {}\n", open.color.label(), open.depth.channel);
+    for (const auto &e : entries) {
+        const std::string name = fmt::format("{}/{}", e["effect"].get<std::string>(), e["pass"].get<std::string>());
+        const std::string cost =
+            e["runs"].get<bool>()
+                ? fmt::format("{:8.2f} MiB {:8.3f} ms", e["bytes"].get<double>() / 1048576, e["predicted_ms"].get<double>())
+                : fmt::format("{:>24}", "dropped");
+        fmt::print("  {:<36} {}  {}\n", name, cost, e["reason"].get<std::string>());
+    }
+    if (info.does_nothing)
+        fmt::print("nothing to do: the picture is copied, bit for bit\n");
+    fmt::print("camera: needs {}{}{}\n", camera_needs(info.camera_needs), info.camera_needs ? ": " : "",
+               info.camera_needs ? info.camera_reason : "");
+    fmt::print("predicted {:.3f} ms a frame; {:.1f} MiB of images\n", info.predicted_ms, double(info.image_bytes) / 1048576);
     return kDone;
-  }
-  const PartInfo& part = open.file.parts()[open.color.part];
-  fmt::print("{} x {} pixels on {} ({})\n", part.width(), part.height(), backend_name(device.backend), device.device);
-  fmt::print("colour {}; depth {}\n", open.color.label(), open.depth.channel);
-  for (const auto& e : entries) {
-    const std::string name = fmt::format("{}/{}", e["effect"].get<std::string>(), e["pass"].get<std::string>());
-    const std::string cost = e["runs"].get<bool>() ? fmt::format("{:8.2f} MiB {:8.3f} ms", e["bytes"].get<double>() / 1048576, e["predicted_ms"].get<double>())
-                                                   : fmt::format("{:>24}", "dropped");
-    fmt::print("  {:<36} {}  {}\n", name, cost, e["reason"].get<std::string>());
-  }
-  if (info.does_nothing) fmt::print("nothing to do: the picture is copied, bit for bit\n");
-  fmt::print("camera: needs {}{}{}\n", camera_needs(info.camera_needs), info.camera_needs ? ": " : "", info.camera_needs ? info.camera_reason : "");
-  fmt::print("predicted {:.3f} ms a frame; {:.1f} MiB of images\n", info.predicted_ms, double(info.image_bytes) / 1048576);
-  return kDone;
 }
 
 }  // namespace
 
-void add_plan(CLI::App& app, Action& chosen) {
-  auto* command = app.add_subcommand("plan", "Say what would run, why, what was dropped, and the predicted cost");
-  auto options = std::make_shared<PlanOptions>();
-  options->fog.add_to(*command);
-  command->add_option("INPUT", options->input, "EXR file, or a pattern: its first frame is planned for")->required();
-  command->add_flag("--json", options->json, "Print JSON");
-  command->callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
+void add_plan(CLI::App &app, Action &chosen)
+{
+    auto *command = app.add_subcommand("plan", "Say what would run, why, what was dropped, and the predicted cost");
+    auto options = std::make_shared<PlanOptions>();
+    options->fog.add_to(*command);
+    command->add_option("INPUT", options->input, "EXR file, or a pattern: its first frame is planned for")->required();
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
 }
 
 }  // namespace brume::tool

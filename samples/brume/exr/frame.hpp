@@ -12,39 +12,39 @@ namespace brume::tool {
 
 /// One channel as the file stores it, subsampling included.
 struct Plane {
-  ChannelInfo channel;
-  std::unique_ptr<char[]> bytes;
-  std::size_t sample_bytes = 0;
+    ChannelInfo channel;
+    std::unique_ptr<char[]> bytes;
+    std::size_t sample_bytes = 0;
 };
 
 /// A picture ready for the library, and all that is needed to write it back without losing anything.
 struct Frame {
-  ExrFile file;
-  ColorChoice color;
-  std::vector<Plane> planes;  ///< every channel of the colour's part
-  int width = 0, height = 0, channels = 3;
-  std::vector<float> pixels;  ///< interleaved RGB or RGBA
-  std::vector<float> depth;   ///< over the colour's data window; +inf where the depth has no sample; empty without depth
-  std::uint64_t outside_depth_window = 0;
+    ExrFile file;
+    ColorChoice color;
+    std::vector<Plane> planes;  ///< every channel of the colour's part
+    int width = 0, height = 0, channels = 3;
+    std::vector<float> pixels;  ///< interleaved RGB or RGBA
+    std::vector<float> depth;   ///< over the colour's data window; +inf where the depth has no sample; empty without depth
+    std::uint64_t outside_depth_window = 0;
 
-  const PartInfo& part() const { return file.parts()[color.part]; }
+    const PartInfo &part() const { return file.parts()[color.part]; }
 };
 
 /// Where depth lives when it is not in the picture's own file.
 struct DepthSource {
-  const ExrFile* file;  ///< null: the picture's own file
-  DepthChoice choice;
+    const ExrFile *file;  ///< null: the picture's own file
+    DepthChoice choice;
 };
 
 /// Whether a channel of this type loses something when it is stored with this compression.
 bool is_lossy_for(Imf::Compression compression, Imf::PixelType type);
 
 /// What read_frame will allocate, from the headers alone.
-std::uint64_t frame_bytes(const ExrFile& file, const ColorChoice& color);
+std::uint64_t frame_bytes(const ExrFile &file, const ColorChoice &color);
 
-Frame read_frame(ExrFile file, const ColorChoice& color, const DepthSource* depth);
+Frame read_frame(ExrFile file, const ColorChoice &color, const DepthSource *depth);
 
 /// One channel of one part as floats, row by row over its data window.
-std::vector<float> read_channel(const ExrFile& file, int part, const std::string& channel);
+std::vector<float> read_channel(const ExrFile &file, int part, const std::string &channel);
 
 }  // namespace brume::tool

@@ -9,29 +9,43 @@
 
 namespace brume::tool {
 
-OutputStream::OutputStream(const std::string& path, const std::string& final_name)
-    : Imf::OStream(final_name.c_str()), file_(std::fopen(path.c_str(), "wb")) {
-  if (!file_) fail();
+OutputStream::OutputStream(const std::string &path, const std::string &final_name)
+    : Imf::OStream(final_name.c_str()), file_(std::fopen(path.c_str(), "wb"))
+{
+    if (!file_)
+        fail();
 }
 
-void OutputStream::fail() {
-  if (error_ == 0) error_ = errno ? errno : EIO;
-  throw FrameError(fmt::format("{}: cannot be written: {}", fileName(), std::strerror(error_)));
+void OutputStream::fail()
+{
+    if (error_ == 0)
+        error_ = errno ? errno : EIO;
+    throw FrameError(fmt::format("{}: cannot be written: {}", fileName(), std::strerror(error_)));
 }
 
-void OutputStream::write(const char bytes[], int count) {
-  if (std::fwrite(bytes, 1, std::size_t(count), file_.get()) != std::size_t(count)) fail();
+void OutputStream::write(const char bytes[], int count)
+{
+    if (std::fwrite(bytes, 1, std::size_t(count), file_.get()) != std::size_t(count))
+        fail();
 }
 
-std::uint64_t OutputStream::tellp() { return std::uint64_t(::ftello(file_.get())); }
-
-void OutputStream::seekp(std::uint64_t position) {
-  if (::fseeko(file_.get(), off_t(position), SEEK_SET) != 0) fail();
+std::uint64_t OutputStream::tellp()
+{
+    return std::uint64_t(::ftello(file_.get()));
 }
 
-void OutputStream::close() {
-  if (error_ != 0 || std::fflush(file_.get()) != 0) fail();
-  if (std::fclose(file_.release()) != 0) fail();
+void OutputStream::seekp(std::uint64_t position)
+{
+    if (::fseeko(file_.get(), off_t(position), SEEK_SET) != 0)
+        fail();
+}
+
+void OutputStream::close()
+{
+    if (error_ != 0 || std::fflush(file_.get()) != 0)
+        fail();
+    if (std::fclose(file_.release()) != 0)
+        fail();
 }
 
 }  // namespace brume::tool

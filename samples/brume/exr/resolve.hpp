@@ -10,34 +10,34 @@ namespace brume::tool {
 
 /// What the command line says about layers; empty strings mean "not said".
 struct LayerRequest {
-  std::string color, part, view, depth;
+    std::string color, part, view, depth;
 };
 
 struct ColorChoice {
-  int part = 0;
-  std::string layer, view;
-  std::array<std::string, 3> rgb;  ///< channel names; all three the same for a luminance image
-  std::string alpha;               ///< empty where the layer has none
-  bool luminance = false;
-  std::string reason;
+    int part = 0;
+    std::string layer, view;
+    std::array<std::string, 3> rgb;  ///< channel names; all three the same for a luminance image
+    std::string alpha;               ///< empty where the layer has none
+    bool luminance = false;
+    std::string reason;
 
-  std::string label() const;
+    std::string label() const;
 };
 
 struct DepthChoice {
-  int part = 0;
-  std::string channel;
-  std::string reason;
+    int part = 0;
+    std::string channel;
+    std::string reason;
 };
 
 /// Layers are found by name, never by index. Throws RequestError that lists the candidates when none or several fit.
-ColorChoice resolve_color(const ExrFile& file, const LayerRequest& request);
+ColorChoice resolve_color(const ExrFile &file, const LayerRequest &request);
 
 /// `color` is where depth must share the view; null when depth comes from a file of its own.
-DepthChoice resolve_depth(const ExrFile& file, const LayerRequest& request, const ColorChoice* color);
+DepthChoice resolve_depth(const ExrFile &file, const LayerRequest &request, const ColorChoice *color);
 
 /// The same, but nothing and the reason rather than an error where the file has no depth.
-std::optional<DepthChoice> find_depth(const ExrFile& file, const LayerRequest& request, const ColorChoice* color,
-                                      std::string* why_not);
+std::optional<DepthChoice> find_depth(const ExrFile &file, const LayerRequest &request, const ColorChoice *color,
+                                      std::string *why_not);
 
 }  // namespace brume::tool

@@ -11,24 +11,24 @@ namespace brume::tool {
 
 /// An extra output of the fog, added to the colour's part as brume.NAME.R/G/B, or brume.NAME.Y for one channel.
 struct AddedLayer {
-  std::string name;
-  int channels = 3;
-  Imf::PixelType type = Imf::HALF;
-  std::vector<float> pixels;  ///< interleaved
+    std::string name;
+    int channels = 3;
+    Imf::PixelType type = Imf::HALF;
+    std::vector<float> pixels;  ///< interleaved
 };
 
 struct WriteOptions {
-  bool primaries_changed = false;  ///< the colour has been converted: `chromaticities` would be false
+    bool primaries_changed = false;  ///< the colour has been converted: `chromaticities` would be false
 };
 
 struct WriteReport {
-  std::uint64_t clamped = 0;          ///< values beyond half's 65504, written as 65504
-  std::vector<std::string> warnings;
+    std::uint64_t clamped = 0;  ///< values beyond half's 65504, written as 65504
+    std::vector<std::string> warnings;
 };
 
 /// Writes the frame's pixels over the colour channels of a copy of its file. Parts without colour are copied
 /// undecoded. The file appears under its name only when it is whole.
-WriteReport write_frame(const Frame& frame, const std::vector<AddedLayer>& layers, const std::filesystem::path& output,
-                        const WriteOptions& options = {});
+WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layers, const std::filesystem::path &output,
+                        const WriteOptions &options = {});
 
 }  // namespace brume::tool

@@ -7,6 +7,6 @@
 namespace brume::tool {
 
 /// Throws RequestError where an output would overwrite something that is read, links included, or another output.
-void check_outputs(const SequenceOptions& options, const std::vector<FrameFile>& files);
+void check_outputs(const SequenceOptions &options, const std::vector<FrameFile> &files);
 
 }  // namespace brume::tool

@@ -13,10 +13,10 @@ namespace brume::tool {
 namespace {
 
 struct ExtraOutput {
-  const char* name;
-  std::uint32_t flag;
-  int channels;
-  Imf::PixelType type;
+    const char *name;
+    std::uint32_t flag;
+    int channels;
+    Imf::PixelType type;
 };
 
 // Optical depth runs to 1e30 for sky in an endless medium, far past half.
@@ -28,192 +28,228 @@ constexpr ExtraOutput kExtraOutputs[] = {{"transmittance", BRUME_OUTPUT_TRANSMIT
 /// A plan holds its images; a sequence with a moving data window meets a new format with every frame.
 constexpr std::size_t kMostPlans = 4;
 
-std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw RequestError(fmt::format("{}: scene file cannot be opened for reading", path));
-  return {std::istreambuf_iterator<char>(in), {}};
+std::string read_text(const std::string &path)
+{
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+        throw RequestError(fmt::format("{}: scene file cannot be opened for reading", path));
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
-brume_image host_image(void* data, int width, int height, int channels) {
-  brume_image image = BRUME_IMAGE_INIT;
-  image.channels = std::uint32_t(channels);
-  image.width = width;
-  image.height = height;
-  image.data = data;
-  return image;
+brume_image host_image(void *data, int width, int height, int channels)
+{
+    brume_image image = BRUME_IMAGE_INIT;
+    image.channels = std::uint32_t(channels);
+    image.width = width;
+    image.height = height;
+    image.data = data;
+    return image;
 }
 
-std::string missing_camera(std::uint32_t missing, const char* reason) {
-  const char* what = missing == BRUME_CAMERA_POSE ? "camera pose" : missing == BRUME_CAMERA_FIELD_OF_VIEW ? "field of view" : "camera";
-  return fmt::format("no {} in options, scene file or metadata, and it matters: {}", what, reason);
+std::string missing_camera(std::uint32_t missing, const char *reason)
+{
+    const char *what = missing == BRUME_CAMERA_POSE            ? "camera pose"
+                       : missing == BRUME_CAMERA_FIELD_OF_VIEW ? "field of view"
+                                                               : "camera";
+    return fmt::format("no {} in options, scene file or metadata, and it matters: {}", what, reason);
 }
 
 }  // namespace
 
 /// What of one picture the plan and the camera depend on.
 struct Fogger::Shot {
-  brume_format format = BRUME_FORMAT_INIT;
-  brume_camera camera = BRUME_CAMERA_INIT;
-  std::string camera_source;
+    brume_format format = BRUME_FORMAT_INIT;
+    brume_camera camera = BRUME_CAMERA_INIT;
+    std::string camera_source;
 };
 
-void FogOptions::add_to(CLI::App& command) {
-  command.add_option("SCENE", scene, "Scene file (JSON; `brume schema` prints its schema)")->required();
-  command.add_option("--backend", backend, "auto (GL where a GPU is found), gl or cpu")->capture_default_str();
-  command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")->type_name("EFFECT.PARAM=VALUE")->allow_extra_args(false);
-  command.add_option("--layers", layers, "Also write these as brume.NAME: transmittance, optical_depth, scattered, blur_radius")
-      ->delimiter(',')->type_name("NAME,...")->allow_extra_args(false);
-  picture.add_to(command);
+void FogOptions::add_to(CLI::App &command)
+{
+    command.add_option("SCENE", scene, "Scene file (JSON; `brume schema` prints its schema)")->required();
+    command.add_option("--backend", backend, "auto (GL where a GPU is found), gl or cpu")->capture_default_str();
+    command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")
+        ->type_name("EFFECT.PARAM=VALUE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--layers", layers,
+                    "Also write these as brume.NAME: transmittance, optical_depth, scattered, blur_radius")
+        ->delimiter(',')
+        ->type_name("NAME,...")
+        ->allow_extra_args(false);
+    picture.add_to(command);
 }
 
-std::uint32_t output_flags(const std::vector<std::string>& layers) {
-  std::uint32_t flags = 0;
-  for (const std::string& layer : layers) {
-    std::uint32_t flag = 0;
-    std::string known;
-    for (const ExtraOutput& output : kExtraOutputs) {
-      if (layer == output.name) flag = output.flag;
-      known += fmt::format("{}{}", known.empty() ? "" : ", ", output.name);
+std::uint32_t output_flags(const std::vector<std::string> &layers)
+{
+    std::uint32_t flags = 0;
+    for (const std::string &layer : layers) {
+        std::uint32_t flag = 0;
+        std::string known;
+        for (const ExtraOutput &output : kExtraOutputs) {
+            if (layer == output.name)
+                flag = output.flag;
+            known += fmt::format("{}{}", known.empty() ? "" : ", ", output.name);
+        }
+        if (!flag)
+            throw RequestError(fmt::format("--layers '{}': expected some of {}", layer, known));
+        flags |= flag;
     }
-    if (!flag) throw RequestError(fmt::format("--layers '{}': expected some of {}", layer, known));
-    flags |= flag;
-  }
-  return flags;
+    return flags;
 }
 
-Fogger::Fogger(const FogOptions& options) : options_(options), outputs_(output_flags(options.layers)) {
-  const std::string text = read_text(options.scene);
-  options.picture.depth_kind();
-  options.picture.sky();
-  context_ = create_context(options.backend);
-  brume_scene scene = nullptr;
-  check_request(context_.get(), brume_scene_create_from_text(context_.get(), text.data(), text.size(), options.scene.c_str(), &scene), "");
-  scene_.reset(scene);
-  for (const std::string& set : options.set) {
-    const auto equals = set.find('=');
-    const auto dot = set.rfind('.', equals);
-    if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
-      throw RequestError(fmt::format("--set '{}': expected EFFECT.PARAM=VALUE", set));
-    const std::string effect = set.substr(0, dot), parameter = set.substr(dot + 1, equals - dot - 1), value = set.substr(equals + 1);
-    check_request(context_.get(), brume_scene_set_text(scene, effect.c_str(), parameter.c_str(), value.c_str()), "--set " + set);
-  }
-  check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
+Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(output_flags(options.layers))
+{
+    const std::string text = read_text(options.scene);
+    options.picture.depth_kind();
+    options.picture.sky();
+    context_ = create_context(options.backend);
+    brume_scene scene = nullptr;
+    check_request(context_.get(),
+                  brume_scene_create_from_text(context_.get(), text.data(), text.size(), options.scene.c_str(), &scene), "");
+    scene_.reset(scene);
+    for (const std::string &set : options.set) {
+        const auto equals = set.find('=');
+        const auto dot = set.rfind('.', equals);
+        if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
+            throw RequestError(fmt::format("--set '{}': expected EFFECT.PARAM=VALUE", set));
+        const std::string effect = set.substr(0, dot), parameter = set.substr(dot + 1, equals - dot - 1),
+                          value = set.substr(equals + 1);
+        check_request(context_.get(), brume_scene_set_text(scene, effect.c_str(), parameter.c_str(), value.c_str()),
+                      "--set " + set);
+    }
+    check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
 }
 
-Fogger::Shot Fogger::shot_of(const ExrFile& file, const ColorChoice& color) const {
-  Shot shot;
-  const PartInfo& part = file.parts()[color.part];
-  const Imf::Header& header = file.header(color.part);
-  const Imath::Box2i& display = header.displayWindow();
-  shot.format.width = part.width();
-  shot.format.height = part.height();
-  // Rays come from the display window, whatever part of it, or of what surrounds it, the data window covers.
-  shot.format.display_x = display.min.x - part.data_window.min.x;
-  shot.format.display_y = display.min.y - part.data_window.min.y;
-  shot.format.display_width = display.max.x - display.min.x + 1;
-  shot.format.display_height = display.max.y - display.min.y + 1;
-  const DepthKind kind = options_.picture.depth_kind();
-  constexpr std::uint32_t kinds[] = {BRUME_DEPTH_PLANAR, BRUME_DEPTH_RAY, BRUME_DEPTH_INVERSE, BRUME_DEPTH_NORMALIZED};
-  shot.format.depth_kind = kinds[kind.type];
-  shot.format.depth_range[0] = kind.near;
-  shot.format.depth_range[1] = kind.far;
-  shot.format.far_distance = options_.picture.far;
-  const Sky sky = options_.picture.sky();
-  constexpr std::uint32_t skies[] = {BRUME_SKY_FOG, BRUME_SKY_KEEP, BRUME_SKY_CLAMP};
-  shot.format.sky = skies[sky.type];
-  shot.format.sky_distance = sky.distance;
-  shot.format.outputs = outputs_;
+Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
+{
+    Shot shot;
+    const PartInfo &part = file.parts()[color.part];
+    const Imf::Header &header = file.header(color.part);
+    const Imath::Box2i &display = header.displayWindow();
+    shot.format.width = part.width();
+    shot.format.height = part.height();
+    // Rays come from the display window, whatever part of it, or of what surrounds it, the data window covers.
+    shot.format.display_x = display.min.x - part.data_window.min.x;
+    shot.format.display_y = display.min.y - part.data_window.min.y;
+    shot.format.display_width = display.max.x - display.min.x + 1;
+    shot.format.display_height = display.max.y - display.min.y + 1;
+    const DepthKind kind = options_.picture.depth_kind();
+    constexpr std::uint32_t kinds[] = {BRUME_DEPTH_PLANAR, BRUME_DEPTH_RAY, BRUME_DEPTH_INVERSE, BRUME_DEPTH_NORMALIZED};
+    shot.format.depth_kind = kinds[kind.type];
+    shot.format.depth_range[0] = kind.near;
+    shot.format.depth_range[1] = kind.far;
+    shot.format.far_distance = options_.picture.far;
+    const Sky sky = options_.picture.sky();
+    constexpr std::uint32_t skies[] = {BRUME_SKY_FOG, BRUME_SKY_KEEP, BRUME_SKY_CLAMP};
+    shot.format.sky = skies[sky.type];
+    shot.format.sky_distance = sky.distance;
+    shot.format.outputs = outputs_;
 
-  Camera camera = options_.picture.camera_asked(header);
-  Camera metadata = camera_from_metadata(header);
-  if (scene_camera_ & BRUME_CAMERA_FIELD_OF_VIEW) metadata.projection.reset();
-  if (scene_camera_ & BRUME_CAMERA_POSE) metadata.pose.reset();
-  camera.fill_from(metadata);
-  const auto source = [&](std::uint32_t flag, const std::string& name, bool given) {
-    return given ? name : scene_camera_ & flag ? "scene file" : "none";
-  };
-  shot.camera_source = fmt::format("field of view: {}; pose: {}", source(BRUME_CAMERA_FIELD_OF_VIEW, camera.projection_source, camera.projection.has_value()),
-                                   source(BRUME_CAMERA_POSE, camera.pose_source, camera.pose.has_value()));
-  if (camera.projection) {
-    shot.camera.given |= BRUME_CAMERA_FIELD_OF_VIEW;
-    shot.camera.vertical_fov = camera.projection->vertical_fov();
-    shot.camera.pixel_aspect = camera.projection->pixel_aspect(display);
-    shot.camera.center[0] = camera.projection->center()[0];
-    shot.camera.center[1] = camera.projection->center()[1];
-  }
-  if (camera.pose) {
-    shot.camera.given |= BRUME_CAMERA_POSE;
-    std::copy(camera.pose->begin(), camera.pose->end(), shot.camera.camera_to_world);
-  }
-  return shot;
+    Camera camera = options_.picture.camera_asked(header);
+    Camera metadata = camera_from_metadata(header);
+    if (scene_camera_ & BRUME_CAMERA_FIELD_OF_VIEW)
+        metadata.projection.reset();
+    if (scene_camera_ & BRUME_CAMERA_POSE)
+        metadata.pose.reset();
+    camera.fill_from(metadata);
+    const auto source = [&](std::uint32_t flag, const std::string &name, bool given) {
+        return given ? name : scene_camera_ & flag ? "scene file" : "none";
+    };
+    shot.camera_source =
+        fmt::format("field of view: {}; pose: {}",
+                    source(BRUME_CAMERA_FIELD_OF_VIEW, camera.projection_source, camera.projection.has_value()),
+                    source(BRUME_CAMERA_POSE, camera.pose_source, camera.pose.has_value()));
+    if (camera.projection) {
+        shot.camera.given |= BRUME_CAMERA_FIELD_OF_VIEW;
+        shot.camera.vertical_fov = camera.projection->vertical_fov();
+        shot.camera.pixel_aspect = camera.projection->pixel_aspect(display);
+        shot.camera.center[0] = camera.projection->center()[0];
+        shot.camera.center[1] = camera.projection->center()[1];
+    }
+    if (camera.pose) {
+        shot.camera.given |= BRUME_CAMERA_POSE;
+        std::copy(camera.pose->begin(), camera.pose->end(), shot.camera.camera_to_world);
+    }
+    return shot;
 }
 
-brume_plan Fogger::plan_for(const ExrFile& file, const ColorChoice& color, const LuminanceWeights& weights) {
-  const Shot shot = shot_of(file, color);
-  const std::vector<double> key{double(shot.format.width), double(shot.format.height), double(shot.format.display_x),
-                                double(shot.format.display_y), double(shot.format.display_width), double(shot.format.display_height),
-                                weights[0], weights[1], weights[2]};
-  auto at = plans_.find(key);
-  if (at == plans_.end()) {
-    check_request(context_.get(), brume_scene_set_luminance_weights(scene_.get(), weights.data()), file.path().string());
-    if (plans_.size() >= kMostPlans) plans_.clear();
-    brume_plan plan = nullptr;
-    check_request(context_.get(), brume_plan_create(scene_.get(), &shot.format, &plan), file.path().string());
-    at = plans_.emplace(key, PlanHandle(plan)).first;
-  }
-  brume_plan_info info = BRUME_PLAN_INFO_INIT;
-  check_request(context_.get(), brume_plan_get_info(at->second.get(), &info), file.path().string());
-  if (const std::uint32_t missing = info.camera_needs & ~(shot.camera.given | scene_camera_))
-    throw RequestError(fmt::format("{}: {}", file.path().string(), missing_camera(missing, info.camera_reason)));
-  return at->second.get();
+brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights)
+{
+    const Shot shot = shot_of(file, color);
+    const std::vector<double> key{double(shot.format.width),
+                                  double(shot.format.height),
+                                  double(shot.format.display_x),
+                                  double(shot.format.display_y),
+                                  double(shot.format.display_width),
+                                  double(shot.format.display_height),
+                                  weights[0],
+                                  weights[1],
+                                  weights[2]};
+    auto at = plans_.find(key);
+    if (at == plans_.end()) {
+        check_request(context_.get(), brume_scene_set_luminance_weights(scene_.get(), weights.data()), file.path().string());
+        if (plans_.size() >= kMostPlans)
+            plans_.clear();
+        brume_plan plan = nullptr;
+        check_request(context_.get(), brume_plan_create(scene_.get(), &shot.format, &plan), file.path().string());
+        at = plans_.emplace(key, PlanHandle(plan)).first;
+    }
+    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    check_request(context_.get(), brume_plan_get_info(at->second.get(), &info), file.path().string());
+    if (const std::uint32_t missing = info.camera_needs & ~(shot.camera.given | scene_camera_))
+        throw RequestError(fmt::format("{}: {}", file.path().string(), missing_camera(missing, info.camera_reason)));
+    return at->second.get();
 }
 
-FogReport Fogger::fog(Frame& frame, int number, const LuminanceWeights& weights, std::vector<AddedLayer>& layers) try {
-  const brume_plan plan = plan_for(frame.file, frame.color, weights);
-  const Shot shot = shot_of(frame.file, frame.color);
-  const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);
-  const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
+FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers)
+try {
+    const brume_plan plan = plan_for(frame.file, frame.color, weights);
+    const Shot shot = shot_of(frame.file, frame.color);
+    const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);
+    const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
 
-  std::vector<brume_image> images;
-  std::vector<brume_extra_output> extra;
-  images.reserve(std::size(kExtraOutputs));
-  layers.clear();
-  layers.reserve(std::size(kExtraOutputs));
-  for (const ExtraOutput& output : kExtraOutputs) {
-    if (!(outputs_ & output.flag)) continue;
-    layers.push_back({output.name, output.channels, output.type, {}});
-    layers.back().pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * std::size_t(output.channels));
-    images.push_back(host_image(layers.back().pixels.data(), frame.width, frame.height, output.channels));
-    brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
-    wanted.output = output.flag;
-    wanted.image = &images.back();
-    extra.push_back(wanted);
-  }
+    std::vector<brume_image> images;
+    std::vector<brume_extra_output> extra;
+    images.reserve(std::size(kExtraOutputs));
+    layers.clear();
+    layers.reserve(std::size(kExtraOutputs));
+    for (const ExtraOutput &output : kExtraOutputs) {
+        if (!(outputs_ & output.flag))
+            continue;
+        layers.push_back({output.name, output.channels, output.type, {}});
+        layers.back().pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * std::size_t(output.channels));
+        images.push_back(host_image(layers.back().pixels.data(), frame.width, frame.height, output.channels));
+        brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
+        wanted.output = output.flag;
+        wanted.image = &images.back();
+        extra.push_back(wanted);
+    }
 
-  brume_frame call = BRUME_FRAME_INIT;
-  call.color = &color;
-  call.depth = &depth;
-  call.output = &color;
-  call.extra = extra.empty() ? nullptr : extra.data();
-  call.extra_count = std::uint32_t(extra.size());
-  call.camera = &shot.camera;
-  call.frame = number;
-  check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());
+    brume_frame call = BRUME_FRAME_INIT;
+    call.color = &color;
+    call.depth = &depth;
+    call.output = &color;
+    call.extra = extra.empty() ? nullptr : extra.data();
+    call.extra_count = std::uint32_t(extra.size());
+    call.camera = &shot.camera;
+    call.frame = number;
+    check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());
 
-  FogReport report;
-  report.camera = shot.camera_source;
-  brume_plan_info info = BRUME_PLAN_INFO_INIT;
-  check_request(context_.get(), brume_plan_get_info(plan, &info), "plan");
-  report.nothing_to_do = info.does_nothing != 0;
-  for (std::uint32_t i = 0; i < info.entry_count; ++i) {
-    brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
-    check_request(context_.get(), brume_plan_get_entry(plan, i, &entry), "plan");
-    if (entry.runs) report.passes.push_back({entry.effect, entry.name, entry.measured_ms});
-  }
-  return report;
-} catch (const RequestError& e) {
-  // Once frames are being done, what is wrong is wrong with this frame.
-  throw FrameError(e.what());
+    FogReport report;
+    report.camera = shot.camera_source;
+    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    check_request(context_.get(), brume_plan_get_info(plan, &info), "plan");
+    report.nothing_to_do = info.does_nothing != 0;
+    for (std::uint32_t i = 0; i < info.entry_count; ++i) {
+        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+        check_request(context_.get(), brume_plan_get_entry(plan, i, &entry), "plan");
+        if (entry.runs)
+            report.passes.push_back({entry.effect, entry.name, entry.measured_ms});
+    }
+    return report;
+} catch (const RequestError &e) {
+    // Once frames are being done, what is wrong is wrong with this frame.
+    throw FrameError(e.what());
 }
 
 }  // namespace brume::tool

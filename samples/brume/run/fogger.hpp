@@ -13,52 +13,52 @@
 namespace brume::tool {
 
 struct FogOptions {
-  std::string scene, backend = "auto";
-  std::vector<std::string> set;     ///< effect.param=value
-  std::vector<std::string> layers;  ///< extra outputs by name
-  PictureOptions picture;
+    std::string scene, backend = "auto";
+    std::vector<std::string> set;     ///< effect.param=value
+    std::vector<std::string> layers;  ///< extra outputs by name
+    PictureOptions picture;
 
-  void add_to(CLI::App& command);
+    void add_to(CLI::App &command);
 };
 
 struct PassTime {
-  std::string effect, name;
-  double ms;
+    std::string effect, name;
+    double ms;
 };
 
 struct FogReport {
-  std::vector<PassTime> passes;
-  std::string camera;  ///< where field of view and pose came from
-  bool nothing_to_do = false;
+    std::vector<PassTime> passes;
+    std::string camera;  ///< where field of view and pose came from
+    bool nothing_to_do = false;
 };
 
 /// The library with one scene: a plan for each format met, made when first needed. One thread at a time.
 class Fogger {
- public:
-  explicit Fogger(const FogOptions& options);
+public:
+    explicit Fogger(const FogOptions &options);
 
-  /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
-  /// that nobody gave.
-  brume_plan plan_for(const ExrFile& file, const ColorChoice& color, const LuminanceWeights& weights);
+    /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
+    /// that nobody gave.
+    brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights);
 
-  /// In place. Throws FrameError.
-  FogReport fog(Frame& frame, int number, const LuminanceWeights& weights, std::vector<AddedLayer>& layers);
+    /// In place. Throws FrameError.
+    FogReport fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers);
 
-  brume_context context() const { return context_.get(); }
+    brume_context context() const { return context_.get(); }
 
- private:
-  struct Shot;
-  Shot shot_of(const ExrFile& file, const ColorChoice& color) const;
+private:
+    struct Shot;
+    Shot shot_of(const ExrFile &file, const ColorChoice &color) const;
 
-  FogOptions options_;
-  ContextHandle context_;
-  SceneHandle scene_;
-  std::uint32_t scene_camera_ = 0;
-  std::uint32_t outputs_ = 0;
-  std::map<std::vector<double>, PlanHandle> plans_;
+    FogOptions options_;
+    ContextHandle context_;
+    SceneHandle scene_;
+    std::uint32_t scene_camera_ = 0;
+    std::uint32_t outputs_ = 0;
+    std::map<std::vector<double>, PlanHandle> plans_;
 };
 
 /// Reads and checks --layers: the flags of the extra outputs named.
-std::uint32_t output_flags(const std::vector<std::string>& layers);
+std::uint32_t output_flags(const std::vector<std::string> &layers);
 
 }  // namespace brume::tool

@@ -7,36 +7,49 @@
 namespace brume::tool {
 namespace {
 
-void log_to_stderr(void*, std::uint32_t level, const char* message) {
-  fmt::print(stderr, "brume: {}{}\n", level == BRUME_LOG_ERROR ? "error: " : "", message);
+void log_to_stderr(void *, std::uint32_t level, const char *message)
+{
+    fmt::print(stderr, "brume: {}{}\n", level == BRUME_LOG_ERROR ? "error: " : "", message);
 }
 
 }  // namespace
 
-std::string sdk_message(brume_context context, brume_status status) {
-  std::string message(brume_message(context, nullptr, 0), '\0');
-  if (message.size() <= 1) return brume_status_name(status);
-  brume_message(context, message.data(), message.size());
-  message.pop_back();
-  return message;
+std::string sdk_message(brume_context context, brume_status status)
+{
+    std::string message(brume_message(context, nullptr, 0), '\0');
+    if (message.size() <= 1)
+        return brume_status_name(status);
+    brume_message(context, message.data(), message.size());
+    message.pop_back();
+    return message;
 }
 
-ContextHandle create_context(const std::string& backend) {
-  brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
-  if (backend == "cpu") desc.backend = BRUME_BACKEND_CPU;
-  else if (backend == "gl") desc.backend = BRUME_BACKEND_GL;
-  else if (backend != "auto") throw RequestError(fmt::format("--backend '{}': expected auto, gl or cpu", backend));
-  desc.log = log_to_stderr;
-  brume_context context = nullptr;
-  const brume_status status = brume_context_create(&desc, &context);
-  if (status != BRUME_OK) throw RequestError(fmt::format("--backend {}: {}", backend, sdk_message(nullptr, status)));
-  return ContextHandle(context);
+ContextHandle create_context(const std::string &backend)
+{
+    brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
+    if (backend == "cpu")
+        desc.backend = BRUME_BACKEND_CPU;
+    else if (backend == "gl")
+        desc.backend = BRUME_BACKEND_GL;
+    else if (backend != "auto")
+        throw RequestError(fmt::format("--backend '{}': expected auto, gl or cpu", backend));
+    desc.log = log_to_stderr;
+    brume_context context = nullptr;
+    const brume_status status = brume_context_create(&desc, &context);
+    if (status != BRUME_OK)
+        throw RequestError(fmt::format("--backend {}: {}", backend, sdk_message(nullptr, status)));
+    return ContextHandle(context);
 }
 
-void check_request(brume_context context, brume_status status, const std::string& what) {
-  if (status != BRUME_OK) throw RequestError(what + (what.empty() ? "" : ": ") + sdk_message(context, status));
+void check_request(brume_context context, brume_status status, const std::string &what)
+{
+    if (status != BRUME_OK)
+        throw RequestError(what + (what.empty() ? "" : ": ") + sdk_message(context, status));
 }
 
-const char* backend_name(std::uint32_t backend) { return backend == BRUME_BACKEND_GL ? "gl" : "cpu"; }
+const char *backend_name(std::uint32_t backend)
+{
+    return backend == BRUME_BACKEND_GL ? "gl" : "cpu";
+}
 
 }  // namespace brume::tool

@@ -22,241 +22,281 @@
 namespace brume::tool {
 namespace {
 
-double ms_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+double ms_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 struct Job {
-  std::size_t index = 0;
-  std::optional<Frame> frame;
-  std::vector<AddedLayer> layers;
-  LuminanceWeights weights{};
-  FrameStats stats;
-  bool discarded = false;  ///< the run was interrupted before its fog
+    std::size_t index = 0;
+    std::optional<Frame> frame;
+    std::vector<AddedLayer> layers;
+    LuminanceWeights weights{};
+    FrameStats stats;
+    bool discarded = false;  ///< the run was interrupted before its fog
 };
 using JobPtr = std::shared_ptr<Job>;
 
 /// A grey picture travels as RGB; what comes back is its luminance.
-void merge_luminance(Frame& frame, const LuminanceWeights& w) {
-  for (std::size_t i = 0; i < frame.pixels.size(); i += std::size_t(frame.channels)) {
-    float* p = &frame.pixels[i];
-    if (p[0] != p[1] || p[0] != p[2]) p[0] = float(w[0] * p[0] + w[1] * p[1] + w[2] * p[2]);
-  }
+void merge_luminance(Frame &frame, const LuminanceWeights &w)
+{
+    for (std::size_t i = 0; i < frame.pixels.size(); i += std::size_t(frame.channels)) {
+        float *p = &frame.pixels[i];
+        if (p[0] != p[1] || p[0] != p[2])
+            p[0] = float(w[0] * p[0] + w[1] * p[1] + w[2] * p[2]);
+    }
 }
 
-std::uint64_t count_not_finite(const Frame& frame) {
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < frame.pixels.size(); i += std::size_t(frame.channels)) {
-    const float* p = &frame.pixels[i];
-    count += !std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]);
-  }
-  return count;
+std::uint64_t count_not_finite(const Frame &frame)
+{
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < frame.pixels.size(); i += std::size_t(frame.channels)) {
+        const float *p = &frame.pixels[i];
+        count += !std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]);
+    }
+    return count;
 }
 
 class Sequence {
- public:
-  Sequence(const SequenceOptions& options, std::vector<FrameFile> files)
-      : options_(options), colors_(options.spaces), fogger_(options.fog), preview_(options.preview), progress_(0, options.quiet) {
-    if (options.memory) limits_.part_bytes = options.memory << 20;
-    for (FrameFile& f : files) {
-      FrameStats stats;
-      if (options.skip_existing && std::filesystem::exists(f.output)) stats.outcome = Outcome::kSkipped;
-      else to_do_.push_back(run_.frames.size());
-      stats.files = std::move(f);
-      run_.frames.push_back(std::move(stats));
+public:
+    Sequence(const SequenceOptions &options, std::vector<FrameFile> files)
+        : options_(options), colors_(options.spaces), fogger_(options.fog), preview_(options.preview),
+          progress_(0, options.quiet)
+    {
+        if (options.memory)
+            limits_.part_bytes = options.memory << 20;
+        for (FrameFile &f : files) {
+            FrameStats stats;
+            if (options.skip_existing && std::filesystem::exists(f.output))
+                stats.outcome = Outcome::kSkipped;
+            else
+                to_do_.push_back(run_.frames.size());
+            stats.files = std::move(f);
+            run_.frames.push_back(std::move(stats));
+        }
     }
-  }
 
-  int run() {
-    preflight();
-    make_folders();
-    catch_interrupts();
-    progress_ = Progress(to_do_.size(), options_.quiet);
-    const auto start = std::chrono::steady_clock::now();
-    pipeline();
-    run_.wall_seconds = ms_since(start) / 1000;
-    progress_.end();
-    return finish();
-  }
-
- private:
-  /// What is wrong with the request shows on the first frame that opens, before anything is written. Damaged frames are
-  /// left for the run to report one by one.
-  void preflight() {
-    std::uint64_t bytes = 0;
-    for (const std::size_t i : to_do_) {
-      try {
-        const OpenFrame open = open_frame(run_.frames[i].files, options_.fog.picture, limits_);
-        fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)));
-        // Once as read, once more as it is written, and the added layers as floats.
-        bytes = 2 * frame_bytes(open.file, open.color);
-        const PartInfo& part = open.file.parts()[open.color.part];
-        bytes += std::uint64_t(part.width()) * std::uint64_t(part.height()) * 12 * options_.fog.layers.size();
-        break;
-      } catch (const FrameError&) {
-      }
+    int run()
+    {
+        preflight();
+        make_folders();
+        catch_interrupts();
+        progress_ = Progress(to_do_.size(), options_.quiet);
+        const auto start = std::chrono::steady_clock::now();
+        pipeline();
+        run_.wall_seconds = ms_since(start) / 1000;
+        progress_.end();
+        return finish();
     }
-    const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t jobs = options_.jobs > 0 ? std::size_t(options_.jobs) : threads + 1;
-    run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(limits_.part_bytes / bytes) : jobs, 1, jobs);
-    Imf::setGlobalThreadCount(int(threads));
-  }
 
-  void make_folders() {
-    for (const std::size_t i : to_do_) {
-      const auto folder = run_.frames[i].files.output.parent_path();
-      std::error_code error;
-      if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error)
-        throw RequestError(fmt::format("{}: the output's folder cannot be made: {}", folder.string(), error.message()));
+private:
+    /// What is wrong with the request shows on the first frame that opens, before anything is written. Damaged frames are
+    /// left for the run to report one by one.
+    void preflight()
+    {
+        std::uint64_t bytes = 0;
+        for (const std::size_t i : to_do_) {
+            try {
+                const OpenFrame open = open_frame(run_.frames[i].files, options_.fog.picture, limits_);
+                fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)));
+                // Once as read, once more as it is written, and the added layers as floats.
+                bytes = 2 * frame_bytes(open.file, open.color);
+                const PartInfo &part = open.file.parts()[open.color.part];
+                bytes += std::uint64_t(part.width()) * std::uint64_t(part.height()) * 12 * options_.fog.layers.size();
+                break;
+            } catch (const FrameError &) {
+            }
+        }
+        const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+        const std::size_t jobs = options_.jobs > 0 ? std::size_t(options_.jobs) : threads + 1;
+        run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(limits_.part_bytes / bytes) : jobs, 1, jobs);
+        Imf::setGlobalThreadCount(int(threads));
     }
-  }
 
-  void pipeline() {
-    namespace tbb = oneapi::tbb;
-    const auto serial = tbb::filter_mode::serial_in_order, parallel = tbb::filter_mode::parallel;
-    tbb::parallel_pipeline(
-        run_.frames_in_flight,
-        tbb::make_filter<void, JobPtr>(serial, [this](tbb::flow_control& control) { return next(control); }) &
-            tbb::make_filter<JobPtr, JobPtr>(parallel, [this](JobPtr job) { return stage(std::move(job), &Sequence::read); }) &
-            tbb::make_filter<JobPtr, JobPtr>(serial, [this](JobPtr job) { return stage(std::move(job), &Sequence::fog); }) &
-            tbb::make_filter<JobPtr, JobPtr>(parallel, [this](JobPtr job) { return stage(std::move(job), &Sequence::write); }) &
-            tbb::make_filter<JobPtr, void>(serial, [this](JobPtr job) { report(*job); }));
-  }
-
-  JobPtr next(oneapi::tbb::flow_control& control) {
-    if (next_ == to_do_.size() || interrupted() || stop_) {
-      control.stop();
-      return nullptr;
+    void make_folders()
+    {
+        for (const std::size_t i : to_do_) {
+            const auto folder = run_.frames[i].files.output.parent_path();
+            std::error_code error;
+            if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error)
+                throw RequestError(
+                    fmt::format("{}: the output's folder cannot be made: {}", folder.string(), error.message()));
+        }
     }
-    auto job = std::make_shared<Job>();
-    job->index = to_do_[next_++];
-    job->stats = run_.frames[job->index];
-    return job;
-  }
 
-  JobPtr stage(JobPtr job, void (Sequence::*work)(Job&)) {
-    if (job->stats.outcome == Outcome::kFailed || job->discarded) return job;
-    try {
-      (this->*work)(*job);
-    } catch (const std::bad_alloc&) {
-      fail(*job, fmt::format("{}: out of memory", job->stats.files.input.string()));
-    } catch (const std::exception& e) {
-      fail(*job, e.what());
+    void pipeline()
+    {
+        namespace tbb = oneapi::tbb;
+        const auto serial = tbb::filter_mode::serial_in_order, parallel = tbb::filter_mode::parallel;
+        tbb::parallel_pipeline(run_.frames_in_flight,
+                               tbb::make_filter<void, JobPtr>(serial, [this](tbb::flow_control &control) {
+                                   return next(control);
+                               }) & tbb::make_filter<JobPtr, JobPtr>(parallel, [this](JobPtr job) {
+                                   return stage(std::move(job), &Sequence::read);
+                               }) & tbb::make_filter<JobPtr, JobPtr>(serial, [this](JobPtr job) {
+                                   return stage(std::move(job), &Sequence::fog);
+                               }) & tbb::make_filter<JobPtr, JobPtr>(parallel, [this](JobPtr job) {
+                                   return stage(std::move(job), &Sequence::write);
+                               }) & tbb::make_filter<JobPtr, void>(serial, [this](JobPtr job) { report(*job); }));
     }
-    return job;
-  }
 
-  void fail(Job& job, std::string why) {
-    job.stats.outcome = Outcome::kFailed;
-    job.stats.error = std::move(why);
-    job.frame.reset();
-    job.layers.clear();
-    if (!options_.keep_going) stop_ = true;
-  }
-
-  void read(Job& job) {
-    const auto start = std::chrono::steady_clock::now();
-    OpenFrame open = open_frame(job.stats.files, options_.fog.picture, limits_);
-    const ExrFile* depth_file = open.depth_file ? &*open.depth_file : nullptr;
-    const DepthSource depth{depth_file, open.depth};
-    job.stats.color = fmt::format("{}: {}", open.color.label(), open.color.reason);
-    job.stats.depth = fmt::format("{}{}: {}", depth_file ? depth_file->path().string() + ":" : "", open.depth.channel, open.depth.reason);
-    const PartInfo& depth_part = (depth_file ? *depth_file : open.file).parts()[open.depth.part];
-    if (is_lossy_for(depth_part.compression, depth_part.find(open.depth.channel)->type))
-      job.stats.warnings.push_back(fmt::format("depth '{}' is stored with a lossy compression: edges may show it", open.depth.channel));
-    job.weights = colors_.luminance_weights(open.file.header(open.color.part));
-    job.frame.emplace(read_frame(std::move(open.file), open.color, &depth));
-    Frame& frame = *job.frame;
-    job.stats.pixels = std::uint64_t(frame.width) * std::uint64_t(frame.height);
-    job.stats.not_finite_pixels = count_not_finite(frame);
-    job.stats.outside_depth_window = frame.outside_depth_window;
-    job.stats.depth_count = count_depth(frame.depth, options_.fog.picture.depth_kind(), options_.fog.picture.far);
-    if (job.stats.depth_count.nan > 0) job.stats.warnings.push_back(fmt::format("{} pixels have NaN depth and count as far", job.stats.depth_count.nan));
-    colors_.to_working(frame.pixels.data(), job.stats.pixels, frame.channels);
-    job.stats.read_ms = ms_since(start);
-  }
-
-  void fog(Job& job) {
-    if (interrupted()) {
-      job.frame.reset();
-      job.discarded = true;
-      return;
+    JobPtr next(oneapi::tbb::flow_control &control)
+    {
+        if (next_ == to_do_.size() || interrupted() || stop_) {
+            control.stop();
+            return nullptr;
+        }
+        auto job = std::make_shared<Job>();
+        job->index = to_do_[next_++];
+        job->stats = run_.frames[job->index];
+        return job;
     }
-    const auto start = std::chrono::steady_clock::now();
-    // Without isolation this thread could pick up another frame's reading while it waits for the library.
-    oneapi::tbb::this_task_arena::isolate([&] { job.stats.fog = fogger_.fog(*job.frame, job.stats.files.frame, job.weights, job.layers); });
-    job.stats.fog_ms = ms_since(start);
-  }
 
-  void write(Job& job) {
-    const auto start = std::chrono::steady_clock::now();
-    Frame& frame = *job.frame;
-    const bool previewed = !options_.preview.empty() && (preview_.is_sequence() || job.index == to_do_.front());
-    std::vector<std::uint8_t> preview;
-    if (previewed) preview = colors_.to_display(frame.pixels.data(), job.stats.pixels, frame.channels);
-    if (frame.color.luminance) merge_luminance(frame, job.weights);
-    colors_.from_working(frame.pixels.data(), job.stats.pixels, frame.channels);
-    const WriteReport report = write_frame(frame, job.layers, job.stats.files.output, {colors_.changes_space()});
-    if (previewed) write_png(preview_.at(job.stats.files.frame), frame.width, frame.height, preview);
-    job.stats.clamped_values = report.clamped;
-    job.stats.warnings.insert(job.stats.warnings.end(), report.warnings.begin(), report.warnings.end());
-    job.frame.reset();
-    job.layers.clear();
-    job.stats.outcome = Outcome::kDone;
-    job.stats.write_ms = ms_since(start);
-  }
-
-  void report(Job& job) {
-    if (job.discarded) return;
-    FrameStats& stats = run_.frames[job.index] = std::move(job.stats);
-    if (stats.outcome == Outcome::kFailed) {
-      progress_.note("failed: " + stats.error);
-      return;
+    JobPtr stage(JobPtr job, void (Sequence::*work)(Job &))
+    {
+        if (job->stats.outcome == Outcome::kFailed || job->discarded)
+            return job;
+        try {
+            (this->*work)(*job);
+        } catch (const std::bad_alloc &) {
+            fail(*job, fmt::format("{}: out of memory", job->stats.files.input.string()));
+        } catch (const std::exception &e) {
+            fail(*job, e.what());
+        }
+        return job;
     }
-    for (const std::string& warning : stats.warnings) {
-      // Counts differ from frame to frame; one line for each kind is enough, --stats has them all.
-      const std::string kind = warning.substr(warning.find_first_not_of("0123456789"));
-      if (warned_.insert(kind).second) progress_.note(fmt::format("warning: {}: {}", stats.files.input.string(), warning));
+
+    void fail(Job &job, std::string why)
+    {
+        job.stats.outcome = Outcome::kFailed;
+        job.stats.error = std::move(why);
+        job.frame.reset();
+        job.layers.clear();
+        if (!options_.keep_going)
+            stop_ = true;
     }
-    progress_.done(stats.files.output.string(), (stats.read_ms + stats.fog_ms + stats.write_ms) / 1000);
-  }
 
-  int finish() {
-    brume_context_info info = BRUME_CONTEXT_INFO_INIT;
-    check_request(fogger_.context(), brume_context_get_info(fogger_.context(), &info), "");
-    run_.backend = backend_name(info.backend);
-    run_.device = info.device ? info.device : "";
-    run_.scene = options_.fog.scene;
-    run_.colors = colors_.description();
-    if (!options_.stats.empty()) write_stats(options_.stats, run_);
+    void read(Job &job)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        OpenFrame open = open_frame(job.stats.files, options_.fog.picture, limits_);
+        const ExrFile *depth_file = open.depth_file ? &*open.depth_file : nullptr;
+        const DepthSource depth{depth_file, open.depth};
+        job.stats.color = fmt::format("{}: {}", open.color.label(), open.color.reason);
+        job.stats.depth = fmt::format("{}{}: {}", depth_file ? depth_file->path().string() + ":" : "", open.depth.channel,
+                                      open.depth.reason);
+        const PartInfo &depth_part = (depth_file ? *depth_file : open.file).parts()[open.depth.part];
+        if (is_lossy_for(depth_part.compression, depth_part.find(open.depth.channel)->type))
+            job.stats.warnings.push_back(
+                fmt::format("depth '{}' is stored with a lossy compression: edges may show it", open.depth.channel));
+        job.weights = colors_.luminance_weights(open.file.header(open.color.part));
+        job.frame.emplace(read_frame(std::move(open.file), open.color, &depth));
+        Frame &frame = *job.frame;
+        job.stats.pixels = std::uint64_t(frame.width) * std::uint64_t(frame.height);
+        job.stats.not_finite_pixels = count_not_finite(frame);
+        job.stats.outside_depth_window = frame.outside_depth_window;
+        job.stats.depth_count = count_depth(frame.depth, options_.fog.picture.depth_kind(), options_.fog.picture.far);
+        if (job.stats.depth_count.nan > 0)
+            job.stats.warnings.push_back(
+                fmt::format("{} pixels have NaN depth and count as far", job.stats.depth_count.nan));
+        colors_.to_working(frame.pixels.data(), job.stats.pixels, frame.channels);
+        job.stats.read_ms = ms_since(start);
+    }
 
-    const std::size_t done = run_.count(Outcome::kDone), failed = run_.count(Outcome::kFailed);
-    const std::size_t skipped = run_.count(Outcome::kSkipped), left = run_.count(Outcome::kNotTried);
-    if (!options_.quiet || failed + left > 0)
-      progress_.note(fmt::format("{} done, {} failed, {} skipped, {} not tried in {:.2f} s on {}{}", done, failed, skipped, left, run_.wall_seconds,
-                                 run_.device, interrupted() ? " (interrupted)" : ""));
-    return failed + left > 0 ? kSomeFailed : kDone;
-  }
+    void fog(Job &job)
+    {
+        if (interrupted()) {
+            job.frame.reset();
+            job.discarded = true;
+            return;
+        }
+        const auto start = std::chrono::steady_clock::now();
+        // Without isolation this thread could pick up another frame's reading while it waits for the library.
+        oneapi::tbb::this_task_arena::isolate(
+            [&] { job.stats.fog = fogger_.fog(*job.frame, job.stats.files.frame, job.weights, job.layers); });
+        job.stats.fog_ms = ms_since(start);
+    }
 
-  const SequenceOptions& options_;
-  ColorManager colors_;
-  Fogger fogger_;
-  FilePattern preview_;
-  Progress progress_;
-  ReadLimits limits_;
-  RunStats run_;
-  std::vector<std::size_t> to_do_;
-  std::size_t next_ = 0;
-  std::atomic<bool> stop_{false};
-  std::set<std::string> warned_;
+    void write(Job &job)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        Frame &frame = *job.frame;
+        const bool previewed = !options_.preview.empty() && (preview_.is_sequence() || job.index == to_do_.front());
+        std::vector<std::uint8_t> preview;
+        if (previewed)
+            preview = colors_.to_display(frame.pixels.data(), job.stats.pixels, frame.channels);
+        if (frame.color.luminance)
+            merge_luminance(frame, job.weights);
+        colors_.from_working(frame.pixels.data(), job.stats.pixels, frame.channels);
+        const WriteReport report = write_frame(frame, job.layers, job.stats.files.output, {colors_.changes_space()});
+        if (previewed)
+            write_png(preview_.at(job.stats.files.frame), frame.width, frame.height, preview);
+        job.stats.clamped_values = report.clamped;
+        job.stats.warnings.insert(job.stats.warnings.end(), report.warnings.begin(), report.warnings.end());
+        job.frame.reset();
+        job.layers.clear();
+        job.stats.outcome = Outcome::kDone;
+        job.stats.write_ms = ms_since(start);
+    }
+
+    void report(Job &job)
+    {
+        if (job.discarded)
+            return;
+        FrameStats &stats = run_.frames[job.index] = std::move(job.stats);
+        if (stats.outcome == Outcome::kFailed) {
+            progress_.note("failed: " + stats.error);
+            return;
+        }
+        for (const std::string &warning : stats.warnings) {
+            // Counts differ from frame to frame; one line for each kind is enough, --stats has them all.
+            const std::string kind = warning.substr(warning.find_first_not_of("0123456789"));
+            if (warned_.insert(kind).second)
+                progress_.note(fmt::format("warning: {}: {}", stats.files.input.string(), warning));
+        }
+        progress_.done(stats.files.output.string(), (stats.read_ms + stats.fog_ms + stats.write_ms) / 1000);
+    }
+
+    int finish()
+    {
+        brume_context_info info = BRUME_CONTEXT_INFO_INIT;
+        check_request(fogger_.context(), brume_context_get_info(fogger_.context(), &info), "");
+        run_.backend = backend_name(info.backend);
+        run_.device = info.device ? info.device : "";
+        run_.scene = options_.fog.scene;
+        run_.colors = colors_.description();
+        if (!options_.stats.empty())
+            write_stats(options_.stats, run_);
+
+        const std::size_t done = run_.count(Outcome::kDone), failed = run_.count(Outcome::kFailed);
+        const std::size_t skipped = run_.count(Outcome::kSkipped), left = run_.count(Outcome::kNotTried);
+        if (!options_.quiet || failed + left > 0)
+            progress_.note(fmt::format("{} done, {} failed, {} skipped, {} not tried in {:.2f} s on {}{}", done, failed,
+                                       skipped, left, run_.wall_seconds, run_.device,
+                                       interrupted() ? " (interrupted)" : ""));
+        return failed + left > 0 ? kSomeFailed : kDone;
+    }
+
+    const SequenceOptions &options_;
+    ColorManager colors_;
+    Fogger fogger_;
+    FilePattern preview_;
+    Progress progress_;
+    ReadLimits limits_;
+    RunStats run_;
+    std::vector<std::size_t> to_do_;
+    std::size_t next_ = 0;
+    std::atomic<bool> stop_{false};
+    std::set<std::string> warned_;
 };
 
 }  // namespace
 
-int run_sequence(const SequenceOptions& options) {
-  std::vector<FrameFile> files = list_frames(FilePattern(options.input), FilePattern(options.output), options.frames);
-  check_outputs(options, files);
-  return Sequence(options, std::move(files)).run();
+int run_sequence(const SequenceOptions &options)
+{
+    std::vector<FrameFile> files = list_frames(FilePattern(options.input), FilePattern(options.output), options.frames);
+    check_outputs(options, files);
+    return Sequence(options, std::move(files)).run();
 }
 
 }  // namespace brume::tool

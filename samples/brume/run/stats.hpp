@@ -14,26 +14,26 @@ namespace brume::tool {
 enum class Outcome { kDone, kFailed, kSkipped, kNotTried };
 
 struct FrameStats {
-  FrameFile files;
-  Outcome outcome = Outcome::kNotTried;
-  std::string error;
-  std::string color, depth;  ///< what was resolved, and why
-  FogReport fog;
-  DepthCount depth_count;
-  std::uint64_t pixels = 0, not_finite_pixels = 0, outside_depth_window = 0, clamped_values = 0;
-  double read_ms = 0, fog_ms = 0, write_ms = 0;
-  std::vector<std::string> warnings;
+    FrameFile files;
+    Outcome outcome = Outcome::kNotTried;
+    std::string error;
+    std::string color, depth;  ///< what was resolved, and why
+    FogReport fog;
+    DepthCount depth_count;
+    std::uint64_t pixels = 0, not_finite_pixels = 0, outside_depth_window = 0, clamped_values = 0;
+    double read_ms = 0, fog_ms = 0, write_ms = 0;
+    std::vector<std::string> warnings;
 };
 
 struct RunStats {
-  std::vector<FrameStats> frames;
-  std::string scene, backend, device, colors;
-  std::size_t frames_in_flight = 0;
-  double wall_seconds = 0;
+    std::vector<FrameStats> frames;
+    std::string scene, backend, device, colors;
+    std::size_t frames_in_flight = 0;
+    double wall_seconds = 0;
 
-  std::size_t count(Outcome outcome) const;
+    std::size_t count(Outcome outcome) const;
 };
 
-void write_stats(const std::filesystem::path& file, const RunStats& stats);
+void write_stats(const std::filesystem::path &file, const RunStats &stats);
 
 }  // namespace brume::tool

@@ -20,26 +20,31 @@ namespace {
 
 // A signal handler may not allocate or lock, so the names it needs lie in fixed memory.
 struct Slot {
-  std::atomic<bool> taken{false}, live{false};
-  char path[PATH_MAX];
+    std::atomic<bool> taken{false}, live{false};
+    char path[PATH_MAX];
 };
 std::array<Slot, 256> slots;
 
-int take_slot(const std::string& path) {
-  if (path.size() >= PATH_MAX) return -1;
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    if (slots[i].taken.exchange(true)) continue;
-    std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
-    slots[i].live.store(true);
-    return int(i);
-  }
-  return -1;
+int take_slot(const std::string &path)
+{
+    if (path.size() >= PATH_MAX)
+        return -1;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        if (slots[i].taken.exchange(true))
+            continue;
+        std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
+        slots[i].live.store(true);
+        return int(i);
+    }
+    return -1;
 }
 
-void release_slot(int slot) {
-  if (slot < 0) return;
-  slots[std::size_t(slot)].live.store(false);
-  slots[std::size_t(slot)].taken.store(false);
+void release_slot(int slot)
+{
+    if (slot < 0)
+        return;
+    slots[std::size_t(slot)].live.store(false);
+    slots[std::size_t(slot)].taken.store(false);
 }
 
 // Between a file's making and its name's entry in a slot no signal may end the process: the file would stay. The thread
@@ -48,60 +53,71 @@ std::atomic<int> makers{0};
 std::atomic<bool> ending{false};
 
 class Making {
- public:
-  Making() {
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
-    ++makers;
-    if (ending.load()) {
-      --makers;
-      for (;;) ::pause();
+public:
+    Making()
+    {
+        sigset_t signals;
+        sigemptyset(&signals);
+        sigaddset(&signals, SIGINT);
+        sigaddset(&signals, SIGTERM);
+        ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
+        ++makers;
+        if (ending.load()) {
+            --makers;
+            for (;;)
+                ::pause();
+        }
     }
-  }
-  ~Making() {
-    --makers;
-    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  Making(const Making&) = delete;
-  Making& operator=(const Making&) = delete;
+    ~Making()
+    {
+        --makers;
+        ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+    Making(const Making &) = delete;
+    Making &operator=(const Making &) = delete;
 
- private:
-  sigset_t before_;
+private:
+    sigset_t before_;
 };
 
 }  // namespace
 
-PendingFile::PendingFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
-  static std::atomic<unsigned> serial{0};
-  const std::string name = fmt::format(".{}.{}-{}.partial", final_.filename().string(), ::getpid(), serial++);
-  temporary_ = final_.parent_path() / name;
-  const Making making;
-  const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-  if (descriptor < 0) throw FrameError(fmt::format("{}: cannot be written: {}", final_.string(), std::strerror(errno)));
-  ::close(descriptor);
-  slot_ = take_slot(temporary_.string());
+PendingFile::PendingFile(std::filesystem::path final_path) : final_(std::move(final_path))
+{
+    static std::atomic<unsigned> serial{0};
+    const std::string name = fmt::format(".{}.{}-{}.partial", final_.filename().string(), ::getpid(), serial++);
+    temporary_ = final_.parent_path() / name;
+    const Making making;
+    const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        throw FrameError(fmt::format("{}: cannot be written: {}", final_.string(), std::strerror(errno)));
+    ::close(descriptor);
+    slot_ = take_slot(temporary_.string());
 }
 
-PendingFile::~PendingFile() {
-  if (!committed_) ::unlink(temporary_.c_str());
-  release_slot(slot_);
+PendingFile::~PendingFile()
+{
+    if (!committed_)
+        ::unlink(temporary_.c_str());
+    release_slot(slot_);
 }
 
-void PendingFile::commit() {
-  if (::rename(temporary_.c_str(), final_.c_str()) != 0)
-    throw FrameError(fmt::format("{}: cannot be put in place: {}", final_.string(), std::strerror(errno)));
-  committed_ = true;
+void PendingFile::commit()
+{
+    if (::rename(temporary_.c_str(), final_.c_str()) != 0)
+        throw FrameError(fmt::format("{}: cannot be put in place: {}", final_.string(), std::strerror(errno)));
+    committed_ = true;
 }
 
-void remove_pending_files() {
-  ending.store(true);
-  const timespec moment{0, 1000000};
-  for (int i = 0; i < 1000 && makers.load() > 0; ++i) ::nanosleep(&moment, nullptr);
-  for (const Slot& slot : slots)
-    if (slot.live.load()) ::unlink(slot.path);
+void remove_pending_files()
+{
+    ending.store(true);
+    const timespec moment{0, 1000000};
+    for (int i = 0; i < 1000 && makers.load() > 0; ++i)
+        ::nanosleep(&moment, nullptr);
+    for (const Slot &slot : slots)
+        if (slot.live.load())
+            ::unlink(slot.path);
 }
 
 }  // namespace brume::tool

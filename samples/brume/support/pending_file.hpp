@@ -7,19 +7,19 @@ namespace brume::tool {
 /// A file that is written beside its place under a temporary name and takes its name only when it is whole. What is
 /// not committed is removed: on errors by the destructor, on fatal signals by remove_pending_files().
 class PendingFile {
- public:
-  explicit PendingFile(std::filesystem::path final_path);
-  ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
+public:
+    explicit PendingFile(std::filesystem::path final_path);
+    ~PendingFile();
+    PendingFile(const PendingFile &) = delete;
+    PendingFile &operator=(const PendingFile &) = delete;
 
-  const std::filesystem::path& path() const { return temporary_; }
-  void commit();
+    const std::filesystem::path &path() const { return temporary_; }
+    void commit();
 
- private:
-  std::filesystem::path final_, temporary_;
-  int slot_ = -1;
-  bool committed_ = false;
+private:
+    std::filesystem::path final_, temporary_;
+    int slot_ = -1;
+    bool committed_ = false;
 };
 
 /// Async-signal-safe.

@@ -107,8 +107,7 @@ TEST_F(HostTextures, SameBitsAsHostMemory)
     const brume_image host_depth = brume::image(depth.data(), width, height, 1);
 
     std::vector<float> floats(color.size());
-    plan.execute(brume::image(color.data(), width, height, 4), host_depth,
-                 brume::image(floats.data(), width, height, 4));
+    plan.execute(brume::image(color.data(), width, height, 4), host_depth, brume::image(floats.data(), width, height, 4));
     EXPECT_NE(floats, color);
     const GLuint full = filled_texture(GL_RGBA32F, GL_RGBA, color), full_out = make_texture(GL_RGBA32F, width, height);
     plan.execute(texture_image(full), texture_image(depth_texture, 1), texture_image(full_out));
@@ -142,8 +141,7 @@ TEST_F(HostTextures, FloatTexturesAreNotClampedToHalves)
     plan.execute(brume::image(bright.data(), width, height, 4), brume::image(depth.data(), width, height, 1),
                  brume::image(floats.data(), width, height, 4));
     const GLuint texture = filled_texture(GL_RGBA32F, GL_RGBA, bright);
-    plan.execute(texture_image(texture), texture_image(filled_texture(GL_R32F, GL_RED, depth), 1),
-                 texture_image(texture));
+    plan.execute(texture_image(texture), texture_image(filled_texture(GL_R32F, GL_RED, depth), 1), texture_image(texture));
     EXPECT_EQ(read<float>(texture), floats);
     EXPECT_GT(*std::max_element(floats.begin(), floats.end()), 65504.0f);
 }
@@ -241,14 +239,12 @@ TEST_F(HostTextures, FailuresAreNamed)
         }
         return std::string();
     };
-    EXPECT_NE(
-        message(in, z, texture_image(make_texture(GL_RGBA8, width, height)), BRUME_ERROR_UNSUPPORTED).find("GL_RGBA8"),
-        std::string::npos);
+    EXPECT_NE(message(in, z, texture_image(make_texture(GL_RGBA8, width, height)), BRUME_ERROR_UNSUPPORTED).find("GL_RGBA8"),
+              std::string::npos);
     EXPECT_NE(message(texture_image(12345), z, in, BRUME_ERROR_ARGUMENT).find("color: texture 12345 does not exist"),
               std::string::npos);
     EXPECT_NE(message(z, z, in, BRUME_ERROR_ARGUMENT), "") << "channels differ";
-    EXPECT_NE(message(in, texture_image(in.gl_texture, 1), in, BRUME_ERROR_UNSUPPORTED).find("depth: "),
-              std::string::npos);
+    EXPECT_NE(message(in, texture_image(in.gl_texture, 1), in, BRUME_ERROR_UNSUPPORTED).find("depth: "), std::string::npos);
     host.release();
     EXPECT_NE(message(in, z, in, BRUME_ERROR_GL).find("no OpenGL context is current"), std::string::npos);
     host.make_current();
