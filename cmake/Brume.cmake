@@ -10,20 +10,17 @@ function(brume_embed target namespace function)
   target_sources(${target} PRIVATE ${output})
 endfunction()
 
-# brume_check_shaders(TARGET FILES...): every compute pass goes through glslangValidator at build time, preceded by what
-# the host puts before it and with its includes from shaders/lib.
-function(brume_check_shaders target)
-  set(stamps "")
-  foreach(file IN LISTS ARGN)
-    get_filename_component(name "${file}" NAME)
-    set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${name}.checked)
-    add_custom_command(OUTPUT ${stamp}
-      COMMAND ${CMAKE_COMMAND} -DVALIDATOR=${GLSLANG_VALIDATOR} -DLIB=${PROJECT_SOURCE_DIR}/shaders/lib -DFILE=${file}
-              -DSTAMP=${stamp} -P ${PROJECT_SOURCE_DIR}/cmake/CheckShader.cmake
-      DEPENDS ${file} ${BRUME_SHADER_LIB} ${PROJECT_SOURCE_DIR}/cmake/CheckShader.cmake VERBATIM)
-    list(APPEND stamps ${stamp})
-  endforeach()
-  add_custom_target(${target} ALL DEPENDS ${stamps})
+# brume_check_shader(TARGET FILE [DEFINES...]): the pass goes through glslangValidator at build time, preceded by what the
+# host puts before it, with these NAME=VALUE and its includes from shaders/lib. Once for every set that is in use.
+function(brume_check_shader target file)
+  string(MAKE_C_IDENTIFIER "${file} ${ARGN}" name)
+  string(REGEX REPLACE ".*passes_" "" name ${name})
+  set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${name}.checked)
+  add_custom_command(OUTPUT ${stamp}
+    COMMAND ${CMAKE_COMMAND} -DVALIDATOR=${GLSLANG_VALIDATOR} -DLIB=${PROJECT_SOURCE_DIR}/shaders/lib -DFILE=${file}
+            "-DDEFINES=${ARGN}" -DSTAMP=${stamp} -P ${PROJECT_SOURCE_DIR}/cmake/CheckShader.cmake
+    DEPENDS ${file} ${BRUME_SHADER_LIB} ${PROJECT_SOURCE_DIR}/cmake/CheckShader.cmake VERBATIM)
+  target_sources(${target} PRIVATE ${stamp})
 endfunction()
 
 # An effect: a module in lib/brume/ that sees the public headers only.

@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.25)
-# cmake -DVALIDATOR= -DLIB= -DFILE= -DSTAMP= -P CheckShader.cmake
+# cmake -DVALIDATOR= -DLIB= -DFILE= -DDEFINES=A=1;B=2 -DSTAMP= -P CheckShader.cmake
 # Expands the includes as the host does (each file once) and validates the whole as a GLSL 4.5 compute shader.
 set(seen "")
 function(expand file out)
@@ -21,7 +21,10 @@ function(expand file out)
 endfunction()
 file(READ "${LIB}/prelude.glsl" prelude)
 expand("${FILE}" body)
-file(WRITE "${STAMP}.comp" "#version 450 core\n${prelude}\n${body}")
+list(TRANSFORM DEFINES PREPEND "#define ")
+list(TRANSFORM DEFINES REPLACE "=" " ")
+list(JOIN DEFINES "\n" defines)
+file(WRITE "${STAMP}.comp" "#version 450 core\n${defines}\n${prelude}\n${body}")
 execute_process(COMMAND ${VALIDATOR} "${STAMP}.comp" RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${FILE}:\n${output}")

@@ -27,56 +27,91 @@ PURE vec4 texelFetch(sampler2D image, ivec2 texel, int /*lod*/)
     return image.channels == 4 ? four(p) : vec4(p[0], real(0), real(0), real(1));
 }
 
-// Calls sum(weight, texel) for the n x n texels around a position, whose first is at `first`, with its edge repeated.
-template <int n, class Weights, class Sum>
-PURE void weighted_texels(sampler2D image, Region region, ivec2 first, Weights wx, Weights wy, Sum sum)
+// Four channels that the compiler keeps in one register, where it takes glm's vec4 apart; by reference throughout, since
+// the double one has no calling convention without AVX.
+using Four = real __attribute__((vector_size(4 * sizeof(real))));
+
+struct AllChannels {
+    using Value = Four;
+    PURE void add(Four &sum, const real *texel, real weight) const
+    {
+        Four v;
+        __builtin_memcpy(&v, texel, sizeof v);
+        sum += v * weight;
+    }
+};
+
+struct OneChannel {
+    using Value = real;
+    int channel;
+    PURE void add(real &sum, const real *texel, real weight) const { sum += texel[channel] * weight; }
+};
+
+// Sums weight times texel over the n x n texels around a position, of which the first is at `first`; the edge repeats.
+template <int n, class Weights, class Channels>
+PURE void weighted_texels(sampler2D image, IN(Region) region, ivec2 first, const Weights &wx, const Weights &wy,
+                          const Channels &channels, typename Channels::Value &sum)
 {
     int64_t columns[n];
     for (int i = 0; i < n; ++i)
         columns[i] = int64_t(clamp(first.x + i, 0, region.size.x - 1)) * image.channels;
     for (int j = 0; j < n; ++j) {
         const real *row = image.data + (clamp(first.y + j, 0, region.size.y - 1) + region.row) * image.row_stride;
+        typename Channels::Value across{};
         for (int i = 0; i < n; ++i)
-            sum(wx[i] * wy[j], row + columns[i]);
+            channels.add(across, row + columns[i], wx[i]);
+        sum += across * wy[j];
     }
 }
 
-template <class Sum> PURE void linear_texels(sampler2D image, Region region, vec2 position, Sum sum)
+// floor() of positions above -1, which all are, without the call it is before SSE 4.1.
+PURE ivec2 texel_below(vec2 position)
 {
-    vec2 origin = floor(position), f = position - origin;
-    weighted_texels<2>(image, region, ivec2(origin), vec2(real(1) - f.x, f.x), vec2(real(1) - f.y, f.y), sum);
+    return ivec2(position + real(1)) - 1;
 }
 
-template <class Sum> PURE void bicubic_texels(sampler2D image, Region region, vec2 position, Sum sum)
+template <class Channels>
+PURE void linear_texels(sampler2D image, IN(Region) region, vec2 position, const Channels &channels,
+                        typename Channels::Value &sum)
 {
-    vec2 origin = floor(position), f = position - origin;
-    weighted_texels<4>(image, region, ivec2(origin) - 1, cubic_weights(f.x), cubic_weights(f.y), sum);
+    ivec2 origin = texel_below(position);
+    vec2 f = position - vec2(origin);
+    weighted_texels<2>(image, region, origin, vec2(real(1) - f.x, f.x), vec2(real(1) - f.y, f.y), channels, sum);
 }
 
-PURE vec4 fetch_linear(sampler2D image, Region region, vec2 position)
+template <class Channels>
+PURE void bicubic_texels(sampler2D image, IN(Region) region, vec2 position, const Channels &channels,
+                         typename Channels::Value &sum)
 {
-    vec4 result(real(0));
-    linear_texels(image, region, position, [&](real w, const real *p) { result += w * four(p); });
-    return result;
+    ivec2 origin = texel_below(position);
+    vec2 f = position - vec2(origin);
+    weighted_texels<4>(image, region, origin - 1, cubic_weights(f.x), cubic_weights(f.y), channels, sum);
 }
 
-PURE vec4 fetch_bicubic(sampler2D image, Region region, vec2 position)
+PURE vec4 fetch_linear(sampler2D image, IN(Region) region, vec2 position)
 {
-    vec4 result(real(0));
-    bicubic_texels(image, region, position, [&](real w, const real *p) { result += w * four(p); });
-    return result;
+    Four v{};
+    linear_texels(image, region, position, AllChannels{}, v);
+    return vec4(v[0], v[1], v[2], v[3]);
 }
 
-PURE real fetch_linear_channel(sampler2D image, Region region, vec2 position, int channel)
+PURE vec4 fetch_bicubic(sampler2D image, IN(Region) region, vec2 position)
 {
-    real result(0);
-    linear_texels(image, region, position, [&](real w, const real *p) { result += w * p[channel]; });
-    return result;
+    Four v{};
+    bicubic_texels(image, region, position, AllChannels{}, v);
+    return vec4(v[0], v[1], v[2], v[3]);
 }
 
-PURE real fetch_bicubic_channel(sampler2D image, Region region, vec2 position, int channel)
+PURE real fetch_linear_channel(sampler2D image, IN(Region) region, vec2 position, int channel)
 {
-    real result(0);
-    bicubic_texels(image, region, position, [&](real w, const real *p) { result += w * p[channel]; });
-    return result;
+    real v{};
+    linear_texels(image, region, position, OneChannel{channel}, v);
+    return v;
+}
+
+PURE real fetch_bicubic_channel(sampler2D image, IN(Region) region, vec2 position, int channel)
+{
+    real v{};
+    bicubic_texels(image, region, position, OneChannel{channel}, v);
+    return v;
 }

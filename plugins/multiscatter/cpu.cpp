@@ -112,7 +112,7 @@ brume_status downsample(Frame &frame)
     auto row = frame.state.parameters.taps == 2   ? downsample_row<2>
                : frame.state.parameters.taps == 4 ? downsample_row<4>
                                                   : downsample_row<6>;
-    for (int level = 1; level <= frame.state.top; ++level) {
+    for (int level = 1; level <= frame.filter.top; ++level) {
         int height = level_size({frame.state.width, frame.state.height}, level).y;
         brume_status s = for_rows(frame, "downsample", height, 8, [&](int y) { row(frame, level, y); });
         if (s)
@@ -123,7 +123,7 @@ brume_status downsample(Frame &frame)
 
 brume_status compose(Frame &frame)
 {
-    Pyramid pyramid{ivec2(frame.state.width, frame.state.height), frame.state.top};
+    Pyramid pyramid{ivec2(frame.state.width, frame.state.height), frame.state.radiance ? frame.filter.top : 0};
     Texture radiance = sampler(frame.radiance), stack = sampler(frame.radiance_stack);
     Texture spread_stack = sampler(frame.spread_stack);
     Texture separated = sampler(frame.separated), separated_stack = sampler(frame.separated_stack);
@@ -161,11 +161,8 @@ brume_status execute_cpu(const brume_services &services, brume_host host, const 
             host,
             state,
             medium_of(*frame.scene),
-            camera_of(*frame.scene),
-            state.parameters.filter,
+            camera_of(*frame.scene), filter_of(state, *frame.scene),
             frame.scene->output_limit};
-    f.filter.top = state.top;
-    f.filter.separation_level = float(state.parameters.separation_fraction * state.top);
     const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
         {frame.color, &f.color},
         {frame.depth, &f.depth},

@@ -38,7 +38,6 @@ private:
         return services_.create_image(host_, label, width, height, channels, &out);
     }
 
-    double largest_blur() const;
     brume_status need_camera(bool scatters);
     brume_status plan_levels(State &state);
     brume_status plan_paper(State &state);
@@ -51,26 +50,6 @@ private:
 bool any(const float (&v)[3])
 {
     return v[0] > 0 || v[1] > 0 || v[2] > 0;
-}
-
-// Widest W_px at any distance: f sqrt(kappa P / (8 + 4/3 a kappa P^2)) is largest at P^2 = 6 / (a kappa). Infinite without
-// absorption.
-double Planner::largest_blur() const
-{
-    const auto &m = request_.scene->medium;
-    if (request_.animated)
-        return INFINITY;
-    auto mean = [&](const float(&v)[3]) {
-        return double(v[0]) * m.luminance[0] + double(v[1]) * m.luminance[1] + double(v[2]) * m.luminance[2];
-    };
-    double kappa = mean(m.scattering) * (1 - m.asymmetry), a = mean(m.absorption);
-    if (kappa <= 0)
-        return 0;
-    if (a <= 0)
-        return INFINITY;
-    double focal = std::sqrt(double(request_.scene->camera.focal[0]) * request_.scene->camera.focal[1]);
-    double p = std::sqrt(6 / (a * kappa));
-    return focal * std::sqrt(kappa * p / (8 + 4.0 / 3.0 * a * kappa * p * p));
 }
 
 brume_status Planner::need_camera(bool scatters)
@@ -99,17 +78,6 @@ brume_status Planner::plan_levels(State &state)
         if (brume_status s = drop("levels", "levels " + std::to_string(p.levels + 1) + " to " + std::to_string(full) +
                                                 ": the parameter `levels` stops there"))
             return s;
-    // The field of view may still change per frame; half of it either way is one level.
-    double blur = largest_blur();
-    if (std::isfinite(blur)) {
-        int needed = std::max(0, int(std::ceil(std::log2(std::max(blur, 1e-6) / p.filter.scale)))) + 2;
-        if (needed < state.top) {
-            state.top = needed;
-            char text[128];
-            std::snprintf(text, sizeof text, "levels above %d: the largest blur is %.3g px at any distance", needed, blur);
-            return drop("levels", text);
-        }
-    }
     return BRUME_OK;
 }
 
@@ -126,7 +94,7 @@ brume_status Planner::plan_paper(State &state)
     if (s)
         return s;
     if (state.top == 0) {
-        s = drop("pyramid", "one pixel, or no blur: scattered light stays where it is");
+        s = drop("pyramid", "one pixel: scattered light stays where it is");
         if (s)
             return s;
     } else {
@@ -141,7 +109,8 @@ brume_status Planner::plan_paper(State &state)
                    separation ? image("separated levels", stack_w, stack_h, 4, state.separated_stack) : BRUME_OK,
                    run("scatter", "splits radiance into what arrives straight and what was scattered",
                        16 + 4 + 16 + (separation ? 16 : 0), 120),
-                   run("downsample", "levels 1 to " + std::to_string(state.top) + " of the pyramid",
+                   run("downsample",
+                       "levels 1 to " + std::to_string(state.top) + " of the pyramid; each frame stops at that of its largest blur",
                        (16 + 16 / 3.0) * (separation ? 2 : 1) * 1.33 + (blurring ? 4 / 3.0 : 0),
                        taps / 3 * (20 + (blurring ? 4 : 0) + (separation ? 16 : 0))),
                    blurring ? BRUME_OK : drop("density blurring", "switched off"),
@@ -171,10 +140,10 @@ brume_status Planner::plan_paper(State &state)
 brume_status Planner::plan(std::unique_ptr<State> &out)
 {
     const auto &m = request_.scene->medium;
-    bool scatters = request_.animated || any(m.scattering);
-    bool absorbs = request_.animated || any(m.absorption);
-    bool emits = request_.animated || any(m.emission);
-    bool dense = request_.animated || m.constant > 0 || m.term_count > 0;
+    bool scatters = any(m.scattering);
+    bool absorbs = any(m.absorption);
+    bool emits = any(m.emission);
+    bool dense = m.constant > 0 || m.term_count > 0;
     if (!request_.scene->has_medium)
         return drop("multiscatter", "the scene has no medium");
     if (!dense || !(scatters || absorbs || emits)) {
@@ -186,7 +155,6 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->parameters = read_parameters(request_.parameters);
     state->width = request_.width;
     state->height = request_.height;
-    state->scatters = scatters;
     brume_status s = dense ? need_camera(scatters) : BRUME_OK;
     if (s)
         return s;

@@ -43,10 +43,8 @@ std::vector<brume_plugin_uniform> filter_uniforms(const Filter &f)
 class Frame {
 public:
     Frame(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
-        : services_(services), host_(host), state_(state), frame_(frame), filter_(state.parameters.filter)
+        : services_(services), host_(host), state_(state), frame_(frame), filter_(filter_of(state, *frame.scene))
     {
-        filter_.top = state.top;
-        filter_.separation_level = float(state.parameters.separation_fraction * state.top);
     }
 
     brume_status execute()
@@ -54,7 +52,7 @@ public:
         if (state_.top > 0) {
             if (brume_status s = scatter())
                 return s;
-            for (int level = 1; level <= state_.top; ++level)
+            for (int level = 1; level <= filter_.top; ++level)
                 if (brume_status s = downsample(level))
                     return s;
         }
@@ -65,10 +63,7 @@ private:
     brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
                      std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
     {
-        // What this plan or frame does without is never touched; GL still wants something bound there.
-        for (brume_plugin_binding &b : bindings)
-            if (!b.image)
-                b.image = b.access == BRUME_ACCESS_WRITE ? frame_.output : frame_.color;
+        std::erase_if(bindings, [](const brume_plugin_binding &b) { return !b.image; });
         auto filter = filter_uniforms(filter_);
         uniforms.insert(uniforms.end(), filter.begin(), filter.end());
         brume_plugin_pass pass{sizeof pass,     uint32_t(bindings.size()), name,   program, bindings.data(),

@@ -13,7 +13,6 @@ struct State {
     int width = 0;
     int height = 0;
     int top = 0;            // K; 0: no pyramid
-    bool scatters = false;  // sigma_s is not zero
 
     // Level 0 of a pyramid and, stacked, its levels 1 to K.
     brume_plugin_image radiance = nullptr;  // RGB: L_sc, A: W
@@ -41,6 +40,9 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
 // The scene as the maths' types.
 brume::maths_float::Medium medium_of(const brume_plugin_scene &scene);
 brume::maths_float::Camera camera_of(const brume_plugin_scene &scene);
+
+// The filter of one frame: its K is the plan's, or the level of the widest blur that the frame's medium and camera allow.
+brume::maths_float::Filter filter_of(const State &state, const brume_plugin_scene &scene);
 
 // Rows of the image that holds levels 1 to K.
 int stack_height(int width, int height, int top);

@@ -71,12 +71,14 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
                                                      std::to_string(largest) + " a side");
         try {
             plan_effects();
+            timer_ = context_->backend->create_timer();
         } catch (...) {
             destroy_states();
             images_.clear();
+            between_[0] = between_[1] = nullptr;
+            programs_.clear();
             throw;
         }
-        timer_ = context_->backend->create_timer();
     });
 }
 
@@ -118,13 +120,13 @@ bool brume_host_t::does_nothing() const
 void brume_host_t::plan_effects()
 {
     const auto &registry = context_->effects;
-    if (scene_.effects.empty()) {
-        for (const Effect &effect : registry.all())
-            if (effect.refusal.empty() && effect.wanted == BRUME_WANTED_WITH_MEDIUM && scene_.medium)
-                effects_.push_back({&effect, {}, nullptr, false});
-    } else {
-        for (const EffectSettings &settings : scene_.effects)
-            effects_.push_back({&registry.find(settings.name), {}, nullptr, false});
+    for (const EffectSettings &settings : scene_.effects)
+        effects_.push_back({&registry.find(settings.name), {}, nullptr, false});
+    for (const Effect &effect : registry.all()) {
+        bool needed = scene_.medium && !scene_.effects_named && effect.refusal.empty() &&
+                      effect.wanted == BRUME_WANTED_WITH_MEDIUM;
+        if (needed && std::none_of(effects_.begin(), effects_.end(), [&](auto &p) { return p.effect == &effect; }))
+            effects_.push_back({&effect, {}, nullptr, false});
     }
     std::sort(effects_.begin(), effects_.end(), [](const auto &a, const auto &b) {
         return std::pair(a.effect->order, a.effect->name) < std::pair(b.effect->order, b.effect->name);
@@ -148,7 +150,7 @@ void brume_host_t::plan_effects()
     View view = view_of(scene_, nullptr, 0, format_);
     fill_camera(scene_, view, format_, BRUME_ORIGIN_TOP_LEFT, scene.camera);
     scene.has_medium = scene_.medium ? 1 : 0;
-    evaluate_medium(scene_, 0, view.camera_to_world, scene.medium);
+    evaluate_medium(with_peak_medium(scene_), 0, view.camera_to_world, scene.medium);
     scene.output_limit = FLT_MAX;
     uint32_t filled = 0;
     for (auto &planned : effects_) {
@@ -190,6 +192,8 @@ void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene 
     auto held = hold_if_unsafe(planned.effect->table);
     try {
         status = planned.effect->table->plan(&services(), this, &request, &planned.state);
+    } catch (const std::bad_alloc &) {
+        throw;
     } catch (const std::exception &error) {
         throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in plan: " + error.what());
     } catch (...) {
@@ -342,6 +346,8 @@ void brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scen
         auto held = hold_if_unsafe(running[i]->effect->table);
         try {
             status = running[i]->effect->table->execute(&services(), this, running[i]->state, &seen);
+        } catch (const std::bad_alloc &) {
+            throw;
         } catch (const std::exception &error) {
             throw Error(BRUME_ERROR_PLUGIN, running[i]->effect->name + ": threw in execute: " + error.what());
         } catch (...) {

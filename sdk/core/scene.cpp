@@ -191,6 +191,24 @@ bool pose_matters(const Scene &scene)
            });
 }
 
+Scene with_peak_medium(Scene scene)
+{
+    if (!scene.medium)
+        return scene;
+    Medium &medium = *scene.medium;
+    const auto by_value = [](const auto &a, const auto &b) { return a.second < b.second; };
+    const auto peak = [&](Number &number) {
+        number = std::max_element(number.keys.begin(), number.keys.end(), by_value)->second;
+    };
+    for (Number3 *numbers : {&medium.scattering, &medium.absorption, &medium.emission})
+        std::for_each(numbers->begin(), numbers->end(), peak);
+    if (medium.visibility)
+        medium.visibility = std::min_element(medium.visibility->keys.begin(), medium.visibility->keys.end(), by_value)->second;
+    for (DensityTerm &term : medium.density)
+        peak(term.value);
+    return scene;
+}
+
 void evaluate_medium(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
                      brume_plugin_medium &out)
 {
@@ -207,8 +225,15 @@ void evaluate_medium(const Scene &scene, double frame, const std::array<double, 
     const std::array<double, 3> emission = values.get(medium.emission, ranges::not_negative, "medium.emission");
     if (medium.visibility) {
         const double extinction = koschmieder / values.get(*medium.visibility, ranges::positive, "medium.visibility");
-        for (size_t i = 0; i < 3; ++i)
+        for (size_t i = 0; i < 3; ++i) {
+            // Room for the rounding of a visibility that stands for the absorption alone.
+            if (absorption[i] > extinction * (1 + 1e-6))
+                throw Error(BRUME_ERROR_ARGUMENT,
+                            fmt::format("medium.visibility: stands for an extinction of {:.6g} / m, below the absorption[{}] of "
+                                        "{:.6g} / m; expected at most {:.6g} m",
+                                        extinction, i, absorption[i], koschmieder / absorption[i]));
             scattering[i] = std::max(extinction - absorption[i], 0.0);
+        }
     }
     for (size_t i = 0; i < 3; ++i) {
         out.scattering[i] = float(scattering[i]);

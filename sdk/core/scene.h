@@ -58,7 +58,8 @@ struct Scene {
     std::optional<Medium> medium;
     Camera camera;
     size_t light_count = 0;               // lights that the file has; no effect reads them yet
-    std::vector<EffectSettings> effects;  // empty: what the content needs
+    std::vector<EffectSettings> effects;  // those that the file or a call set
+    bool effects_named = false;           // the file names its effects: what the content needs is not added to them
 
     bool animated() const;
 };
@@ -72,8 +73,12 @@ Scene parse_scene(const std::string &text, const std::string &name, const Effect
 std::string scene_schema(const EffectRegistry &effects);
 
 // Scene values at one frame, camera-relative, as effects see them. needs_pose: some density term depends on position.
-// Checks ranges that keys may leave; throws Error(BRUME_ERROR_ARGUMENT).
+// Throws Error(BRUME_ERROR_ARGUMENT) where values contradict each other.
 bool pose_matters(const Scene &scene);
+
+// The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
+Scene with_peak_medium(Scene scene);
+
 void evaluate_medium(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
                      brume_plugin_medium &out);
 

@@ -317,6 +317,7 @@ Scene read_scene(const JsonNode &root, const EffectRegistry &registry)
     if (const auto effects = root.find("effects"))
         for (const JsonMember &member : effects->object())
             scene.effects.push_back(read_effect(*effects, member, registry));
+    scene.effects_named = !scene.effects.empty();
     return scene;
 }
 

@@ -79,6 +79,8 @@ const brume_services &services()
                     result = host->rows(name, count, grain, function, user);
                 } catch (const Error &) {
                     throw;
+                } catch (const std::bad_alloc &) {
+                    throw;
                 } catch (const std::exception &error) {
                     throw Error(BRUME_ERROR_PLUGIN, std::string("threw in a loop over rows: ") + error.what());
                 } catch (...) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/scene_ranges.h"
 
 namespace brume {
 namespace {
@@ -90,13 +91,13 @@ void check_camera(const brume_camera &camera)
         throw Error(BRUME_ERROR_ARGUMENT, "camera." + what + ": " + std::to_string(value) + "; expected " + expected);
     };
     if (camera.given & BRUME_CAMERA_FIELD_OF_VIEW) {
-        if (!(camera.vertical_fov > 0 && camera.vertical_fov < 3.14159265358979))
-            refuse("vertical_fov", camera.vertical_fov, "an angle between 0 and pi");
-        if (!(camera.pixel_aspect > 0 && std::isfinite(camera.pixel_aspect)))
-            refuse("pixel_aspect", camera.pixel_aspect, "a positive number");
+        if (!(camera.vertical_fov >= 1e-6 && camera.vertical_fov <= 3.141592))
+            refuse("vertical_fov", camera.vertical_fov, "an angle from 1e-6 to 3.141592");
+        if (!ranges::pixel_aspect.contains(camera.pixel_aspect))
+            refuse("pixel_aspect", camera.pixel_aspect, ranges::pixel_aspect.describe().c_str());
         for (double c : camera.center)
-            if (!std::isfinite(c))
-                refuse("center", c, "a finite number");
+            if (!ranges::center.contains(c))
+                refuse("center", c, ranges::center.describe().c_str());
     }
     if (camera.given & BRUME_CAMERA_POSE) {
         const double *m = camera.camera_to_world;

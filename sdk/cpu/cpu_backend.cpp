@@ -1,8 +1,7 @@
 #include <atomic>
 #include <chrono>
-#include <map>
+#include <list>
 #include <mutex>
-#include <tuple>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/info.h>
@@ -20,22 +19,17 @@ struct CpuImage : Image {
     float *data = nullptr;
     int64_t row_stride = 0;  // in floats
     std::vector<float> owned;
+
+    uint64_t bytes() const { return owned.size() * sizeof(float); }
 };
 
-// Images that nobody holds wait here for the next plan of the same size.
+// Images that nobody holds wait here for the next plan or frame of the same size: at most as many bytes as were ever in use
+// at once, so that sizes which never come back (a moving data window) do not pile up.
 class Pool : public std::enable_shared_from_this<Pool> {
 public:
     std::shared_ptr<CpuImage> take(int32_t width, int32_t height, int32_t channels)
     {
-        std::unique_ptr<CpuImage> image;
-        {
-            std::lock_guard lock(mutex_);
-            auto found = free_.find({width, height, channels});
-            if (found != free_.end()) {
-                image = std::move(found->second);
-                free_.erase(found);
-            }
-        }
+        std::unique_ptr<CpuImage> image = find(width, height, channels);
         if (!image) {
             image = std::make_unique<CpuImage>();
             image->width = width;
@@ -44,23 +38,48 @@ public:
             image->row_stride = int64_t(width) * channels;
             image->owned.resize(size_t(width) * size_t(height) * size_t(channels));
             image->data = image->owned.data();
-            bytes_ += image->owned.size() * sizeof(float);
         }
+        std::lock_guard lock(mutex_);
+        used_ += image->bytes();
+        most_used_ = std::max(most_used_, used_);
         return {image.release(), [pool = shared_from_this()](CpuImage *back) { pool->give(back); }};
     }
 
-    uint64_t bytes() const { return bytes_; }
+    uint64_t bytes()
+    {
+        std::lock_guard lock(mutex_);
+        return used_ + idle_bytes_;
+    }
 
 private:
+    std::unique_ptr<CpuImage> find(int32_t width, int32_t height, int32_t channels)
+    {
+        std::lock_guard lock(mutex_);
+        for (auto i = idle_.begin(); i != idle_.end(); ++i)
+            if ((*i)->width == width && (*i)->height == height && (*i)->channels == channels) {
+                auto image = std::move(*i);
+                idle_.erase(i);
+                idle_bytes_ -= image->bytes();
+                return image;
+            }
+        return nullptr;
+    }
+
     void give(CpuImage *image)
     {
         std::lock_guard lock(mutex_);
-        free_.emplace(std::tuple(image->width, image->height, image->channels), image);
+        used_ -= image->bytes();
+        idle_bytes_ += image->bytes();
+        idle_.emplace_front(image);
+        while (idle_bytes_ > most_used_) {
+            idle_bytes_ -= idle_.back()->bytes();
+            idle_.pop_back();
+        }
     }
 
     std::mutex mutex_;
-    std::multimap<std::tuple<int32_t, int32_t, int32_t>, std::unique_ptr<CpuImage>> free_;
-    std::atomic<uint64_t> bytes_ = 0;
+    std::list<std::unique_ptr<CpuImage>> idle_;  // given back last first
+    uint64_t used_ = 0, most_used_ = 0, idle_bytes_ = 0;
 };
 
 class CpuTimer : public FrameTimer {
@@ -180,12 +199,13 @@ public:
         // Blocks are fixed by grain alone and never by the number of threads, so an effect that sums over its block
         // gives the same bits on any machine.
         std::atomic<brume_status> status = BRUME_OK;
-        int32_t blocks = (count + grain - 1) / grain;
+        grain = std::min(grain, std::max(count, 1));
+        int32_t blocks = count / grain + (count % grain != 0);
         arena_.execute([&] {
             oneapi::tbb::parallel_for(0, blocks, [&](int32_t block) {
                 if (status != BRUME_OK)
                     return;
-                brume_status result = function(user, block * grain, std::min(count, (block + 1) * grain));
+                brume_status result = function(user, block * grain, std::min<int64_t>(count, (int64_t(block) + 1) * grain));
                 brume_status none = BRUME_OK;
                 if (result != BRUME_OK)
                     status.compare_exchange_strong(none, result);

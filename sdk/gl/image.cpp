@@ -11,7 +11,7 @@ namespace brume::gl {
 namespace {
 
 // Plans used in turn, or a resized window that snaps back, find their images again within this many frames.
-constexpr uint64_t idle_frames = 64;
+constexpr uint64_t idle_frames = 8;
 
 struct Format {
     GLenum name;

@@ -35,12 +35,6 @@ PURE float kernel_weight(int n, int i)
     return from_edge == 0 ? R(0.03125) : (from_edge == 1 ? R(0.15625) : R(0.3125));
 }
 
-// Variance of one step of that kernel [texels^2 of the finer level].
-PURE float kernel_variance(int n)
-{
-    return n == 2 ? R(0.25) : (n == 4 ? R(0.77) : R(1.25));
-}
-
 // k = clamp(log2(W / c), 0, K).
 PURE float spread_level(float spread, float c, float top)
 {

@@ -29,13 +29,15 @@ PURE vec3 scattered_share(IN(Medium) medium, float p)
 }
 
 // The medium's own radiance: int C_e rho e^(-C_t P(t)) dt = C_e P phi(C_t P), exact for any density since only P enters.
-// Emitted light that scatters on its way is not followed. Saturates at C_e / C_t.
+// Emitted light that scatters on its way is not followed. Saturates at C_e / C_t
+// (and, in a medium that only emits, at density_limit).
 PURE vec3 emitted(IN(Medium) medium, float p)
 {
     if (medium.emission == vec3(R(0.0)))
         return vec3(R(0.0));
     vec3 tau = optical_depth(medium, p);
-    return medium.emission * p * vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
+    vec3 length = p * vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
+    return min(medium.emission * length, vec3(density_limit));
 }
 
 // A component that is not finite gives no light to others: one bad pixel must not blacken the frame.

@@ -11,8 +11,8 @@ const float spread_limit = R(1e6);
 PURE float spread_angle(IN(Medium) medium, float p)
 {
     float s = min(p, R(1e15));
-    float x = dot(medium.luminance, medium.scattering) * (R(1.0) - medium.asymmetry) * s;
-    float a = dot(medium.luminance, medium.absorption) * s;
+    float x = min(dot(medium.luminance, medium.scattering) * (R(1.0) - medium.asymmetry) * s, R(1e18));
+    float a = min(dot(medium.luminance, medium.absorption) * s, R(1e18));
     return sqrt(max(x, R(0.0)) / (R(8.0) + R(4.0) / R(3.0) * a * x));
 }
 

@@ -1,8 +1,4 @@
 // PYRAMID and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
-#ifndef PYRAMID
-#define PYRAMID 1
-#define OUTPUTS 15
-#endif
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"

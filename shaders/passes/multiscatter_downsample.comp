@@ -1,9 +1,4 @@
 // TAPS, BLURRING, SEPARATION are set by the plan.
-#ifndef TAPS
-#define TAPS 4
-#define BLURRING 1
-#define SEPARATION 1
-#endif
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"

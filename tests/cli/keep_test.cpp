@@ -214,7 +214,7 @@ TEST_F(Keep, AddedLayersTakeTheirPlaceAndReplaceOlderOnes)
     doubled(again);
     EXPECT_EQ(read_plane(out, "brume.transmittance.G")[5], 0.25);
     EXPECT_EQ(read_header(out).channels()["brume.transmittance.R"].type, Imf::FLOAT);
-    expect_same("brume.blur_radius.Y");
+    EXPECT_EQ(read_header(out).channels().findChannel("brume.blur_radius.Y"), nullptr) << "it told of the first medium";
 }
 
 TEST_F(Keep, LuminanceIsOneChannel)

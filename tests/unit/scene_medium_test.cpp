@@ -207,12 +207,16 @@ TEST(EvaluateMedium, CoefficientsAndDefaults)
     EXPECT_EQ(medium.term_count, 0);
     EXPECT_EQ(medium.luminance[1], 0.7152f);
 
-    scene.medium->absorption = numbers({0.5, 0.0, 0.01});
+    scene.medium->absorption = numbers({0.1, 0.0, 0.01});
     scene.medium->visibility = 39.12;
     evaluate_medium(scene, 0.0, identity, medium);
-    EXPECT_EQ(medium.scattering[0], 0.0f);
+    EXPECT_NEAR(medium.scattering[0], 0.0f, 1e-8f);
     EXPECT_FLOAT_EQ(medium.scattering[1], 0.1f);
     EXPECT_FLOAT_EQ(medium.scattering[2], 0.09f);
+
+    scene.medium->absorption = numbers({0.5, 0.0, 0.0});
+    EXPECT_THROW(evaluate_medium(scene, 0.0, identity, medium), Error) << "absorption alone is more than that visibility allows";
+    scene.medium->visibility.reset();
 
     scene.medium->density = {constant(0.25), constant(0.5), exponential(2, 0, {0, 1, 0}, {0, 0, 0}),
                              exponential(0, 1, {0, 1, 0}, {0, 0, 0})};

@@ -28,6 +28,14 @@
 namespace brume::tool {
 namespace {
 
+/// What stands before a channel's name in this frame's view: nothing for the default one.
+std::string view_prefix(const Frame &frame)
+{
+    return frame.color.view.empty() || frame.color.view == frame.file.default_view() || !frame.part().view.empty()
+            ? ""
+            : frame.color.view + ".";
+}
+
 constexpr float kHalfMax = 65504.0f;
 
 /// What describes the old pixels and would be false of the new ones.
@@ -71,10 +79,7 @@ std::vector<Plane> outgoing_planes(const Frame &frame, const std::vector<AddedLa
         planes.push_back(
             from_floats(channel(frame.color.rgb[i]), frame.pixels.data() + i, count, std::size_t(frame.channels), clamped));
 
-    const std::string view =
-        frame.color.view.empty() || frame.color.view == frame.file.default_view() || !frame.part().view.empty()
-            ? ""
-            : frame.color.view + ".";
+    const std::string view = view_prefix(frame);
     for (const AddedLayer &layer : layers)
         for (int c = 0; c < layer.channels; ++c) {
             const std::string base = layer.channels == 1 ? "Y" : std::string(1, "RGB"[c]);
@@ -91,12 +96,28 @@ const Plane *find_plane(const std::vector<Plane> &planes, const std::string &nam
     return at == planes.end() ? nullptr : &*at;
 }
 
+/// Layers that an earlier run added to this view tell of another medium.
+Imf::ChannelList without_own_layers(const Imf::ChannelList &channels, const std::string &view)
+{
+    Imf::ChannelList kept;
+    for (auto c = channels.begin(); c != channels.end(); ++c) {
+        const std::string name = c.name(), own = "brume.";
+        const std::size_t dot = name.find('.', own.size());
+        const bool stale = name.starts_with(own) && dot != std::string::npos && name.size() == dot + 1 + view.size() + 1 &&
+                           name.compare(dot + 1, view.size(), view) == 0;
+        if (!stale)
+            kept.insert(c.name(), c.channel());
+    }
+    return kept;
+}
+
 Imf::Header header_of_rewritten(const Frame &frame, const std::vector<Plane> &outgoing, const WriteOptions &options,
                                 std::vector<std::string> &warnings)
 {
     Imf::Header header = frame.file.header(frame.color.part);
     for (const char *name : kStaleAttributes)
         header.erase(name);
+    header.channels() = without_own_layers(header.channels(), view_prefix(frame));
     if (options.primaries_changed)
         header.erase("chromaticities");
     for (const Plane &plane : outgoing)

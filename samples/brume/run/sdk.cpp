@@ -9,7 +9,9 @@ namespace {
 
 void log_to_stderr(void *, std::uint32_t level, const char *message)
 {
-    fmt::print(stderr, "brume: {}{}\n", level == BRUME_LOG_ERROR ? "error: " : "", message);
+    // Errors come back as statuses, and are printed where they end a frame or the run.
+    if (level != BRUME_LOG_ERROR)
+        fmt::print(stderr, "brume: {}\n", message);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@
  * Rules that hold everywhere
  *   Status      Every call that can fail returns a brume_status. Codes unknown to you may come from a later library:
  *               treat every nonzero value as failure. brume_message() copies out the text of the calling thread's last
- *               failure in that context; nothing is sticky, and a failed call leaves its outputs and objects as they were.
+ *               failure in that context; nothing is sticky, and a failed call leaves its objects as they were. The output
+ *               images of a failed brume_plan_execute() may be half written.
  *   Structs     begin with struct_size; initialise them with their BRUME_..._INIT. A field counts when it lies wholly
  *               inside the struct_size given; the others take their defaults. Size 0 is refused, and so is a larger
  *               struct whose bytes past the end known here are not all zero.
@@ -245,8 +246,9 @@ BRUME_API brume_status brume_scene_set_metres_per_unit(brume_scene scene, double
 /* Luminance weights of the working colour space, >= 0 with a sum of 1; default Rec. 709 (.2126, .7152, .0722). */
 BRUME_API brume_status brume_scene_set_luminance_weights(brume_scene scene, const double weights[3]);
 
-/* Adds the effect with its defaults if it is not there, and sets one parameter; `parameter` NULL sets none. A scene to
-   which no effect was added gets every effect that its content needs. */
+/* Adds the effect with its defaults if it is not there, and sets one parameter; `parameter` NULL sets none. What the
+   content needs (multiscatter, where there is a medium) runs besides, unless the scene came from text that names its
+   effects. */
 BRUME_API brume_status brume_scene_set_text(brume_scene scene, const char *effect, const char *parameter, const char *value);
 BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *effect, const char *parameter, double value);
 

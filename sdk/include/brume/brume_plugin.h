@@ -87,8 +87,9 @@ typedef struct brume_plugin_request {
   uint32_t outputs;                /* BRUME_OUTPUT_... flags wanted */
   uint32_t parameter_count;
   const double *parameters;        /* values in the order of the effect's table; choices by index */
-  const brume_plugin_scene *scene; /* at the first frame; keyed values may change afterwards (see animated) */
-  uint32_t animated;               /* 1: some value of the scene is keyed: drop nothing on the ground of its values */
+  const brume_plugin_scene *scene; /* with the largest value that each keyed quantity of the medium takes: what is zero here
+                                      is zero in every frame. Frames may bring another camera. */
+  uint32_t animated;               /* 1: some value of the scene is keyed */
   uint32_t pose_matters;           /* 1: some density term depends on the position */
 } brume_plugin_request;
 
@@ -108,7 +109,7 @@ typedef struct brume_plugin_frame {
   uint32_t outputs;                /* BRUME_OUTPUT_... flags for which an image is there in this frame */
   const brume_plugin_scene *scene;
   brume_plugin_image color;        /* RGBA; linear, premultiplied; may hold NaN and infinities */
-  brume_plugin_image depth;        /* one channel, as the caller gave it: shaders/lib/depth.glsl converts */
+  brume_plugin_image depth;        /* one channel, as the caller gave it: shaders/lib/ray.glsl converts */
   brume_plugin_image output;       /* RGBA; never the image `color` is */
   brume_plugin_image transmittance; /* RGBA, NULL unless wanted */
   brume_plugin_image optical_depth; /* RGBA, NULL unless wanted */
