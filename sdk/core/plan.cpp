@@ -30,6 +30,16 @@ Rates nominal_rates(const Backend &backend)
     return software ? Rates{2e6, 4e5} : Rates{3e8, 1e9};
 }
 
+std::string output_names(uint32_t outputs)
+{
+    const char *const names[] = {"transmittance", "optical depth", "scattered", "blur radius"};
+    std::string text;
+    for (uint32_t i = 0; i < 4; ++i)
+        if (outputs & (1u << i))
+            text += (text.empty() ? "" : ", ") + std::string(names[i]);
+    return text;
+}
+
 bool same_memory(const brume_image &a, const brume_image &b)
 {
     if (a.kind != b.kind)
@@ -158,7 +168,7 @@ void brume_host_t::plan_effects()
         filled |= planned.runs ? planned.effect->table->outputs : 0;
     }
     if (uint32_t missing = format_.outputs & ~filled)
-        throw Error(BRUME_ERROR_UNSUPPORTED, "format.outputs: nothing that runs fills outputs " + std::to_string(missing) +
+        throw Error(BRUME_ERROR_UNSUPPORTED, "format.outputs: nothing that runs fills " + output_names(missing) +
                                                  (entries_.empty() ? "" : " (" + entries_.back().reason + ")"));
 
     auto running = std::count_if(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });

@@ -12,7 +12,7 @@ for i in $(seq 1 $count); do
   # Bilinear colour, nearest depth: distances are never averaged.
   oiiotool "$frames/street.$n.exr" --ch R,G,B,A --resize:filter=triangle 1920x1080 \
     "$frames/street.$n.exr" --ch Z --resample:interp=0 1920x1080 --chappend \
-    --compression zip -d R,G,B,A=half -d Z=float -o "$work/in/street.$n.exr"
+    --compression zip -d R=half -d G=half -d B=half -d A=half -d Z=float -o "$work/in/street.$n.exr"
 done
 timed() { # LABEL COMMAND...
   local label=$1; shift

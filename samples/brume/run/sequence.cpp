@@ -94,22 +94,32 @@ private:
     /// left for the run to report one by one.
     void preflight()
     {
-        std::uint64_t bytes = 0;
+        std::uint64_t bytes = 0, fogging = 0;
         for (const std::size_t i : to_do_) {
             try {
                 const OpenFrame open = open_frame(run_.frames[i].files, options_.fog.picture, limits_);
-                fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)));
+                const brume_plan plan =
+                    fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)));
                 // Once as read, once more as it is written, and the added layers as floats.
                 bytes = 2 * frame_bytes(open.file, open.color);
                 const PartInfo &part = open.file.parts()[open.color.part];
-                bytes += std::uint64_t(part.width()) * std::uint64_t(part.height()) * 12 * options_.fog.layers.size();
+                const std::uint64_t pixels = std::uint64_t(part.width()) * std::uint64_t(part.height());
+                bytes += pixels * 12 * options_.fog.layers.size();
+                // One frame is fogged at a time: the plan's images, and colour, depth and output as the SDK holds them.
+                brume_plan_info info = BRUME_PLAN_INFO_INIT;
+                check_request(fogger_.context(), brume_plan_get_info(plan, &info), "");
+                fogging = info.image_bytes + pixels * 36;
                 break;
             } catch (const FrameError &) {
             }
         }
         const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
         const std::size_t jobs = options_.jobs > 0 ? std::size_t(options_.jobs) : threads + 1;
-        run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(limits_.part_bytes / bytes) : jobs, 1, jobs);
+        const std::uint64_t left = limits_.part_bytes - std::min(limits_.part_bytes, fogging);
+        run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(left / bytes) : jobs, 1, jobs);
+        if (bytes > left)
+            progress_.note(fmt::format("warning: one frame takes about {} MiB, more than the {} MiB of --mem; going on one at a time",
+                                       (bytes + fogging) >> 20, limits_.part_bytes >> 20));
         Imf::setGlobalThreadCount(int(threads));
     }
 
