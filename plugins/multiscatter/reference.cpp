@@ -32,7 +32,8 @@ Medium wide(const brume::maths_float::Medium &m)
 Camera wide(const brume::maths_float::Camera &c)
 {
     return Camera{c.focal,       c.tangent_scale, c.center,       c.depth_kind,     c.sky,
-                  c.depth_range, c.far_distance,  c.sky_distance, c.metres_per_unit};
+                  c.depth_range, c.far_distance,  c.sky_distance, c.metres_per_unit,
+                  c.nonpositive};
 }
 
 // Integral of the unit Gaussian around the centre of pixel `from` over pixel `to`.

@@ -29,7 +29,8 @@ Camera camera_of(const brume_plugin_scene &scene)
     const auto &c = scene.camera;
     auto pair = [](const float(&v)[2]) { return vec2(v[0], v[1]); };
     return Camera{pair(c.focal),       pair(c.tangent_scale), pair(c.center), c.depth_kind,     c.sky,
-                  pair(c.depth_range), c.far_distance,        c.sky_distance, c.metres_per_unit};
+                  pair(c.depth_range), c.far_distance,        c.sky_distance, c.metres_per_unit,
+                  c.nonpositive};
 }
 
 namespace {

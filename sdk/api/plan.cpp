@@ -26,7 +26,7 @@ brume_format read_format(const brume_format *given)
         read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height, &brume_format::display_x,
                     &brume_format::display_y, &brume_format::display_width, &brume_format::display_height,
                     &brume_format::depth_kind, &brume_format::depth_range, &brume_format::far_distance, &brume_format::sky,
-                    &brume_format::outputs, &brume_format::sky_distance);
+                    &brume_format::outputs, &brume_format::sky_distance, &brume_format::nonpositive);
     expect(format.width >= 1 && format.width <= 65536, "brume_format.width: expected 1 to 65536");
     expect(format.height >= 1 && format.height <= 65536, "brume_format.height: expected 1 to 65536");
     expect(format.display_width >= 0 && format.display_height >= 0 &&
@@ -34,6 +34,7 @@ brume_format read_format(const brume_format *given)
            "brume_format.display_width, display_height: expected both positive, or both 0");
     expect(format.depth_kind <= BRUME_DEPTH_DEVICE, "brume_format.depth_kind: expected a BRUME_DEPTH_...");
     expect(format.sky <= BRUME_SKY_CLAMP, "brume_format.sky: expected a BRUME_SKY_...");
+    expect(format.nonpositive <= BRUME_NONPOSITIVE_NEAR, "brume_format.nonpositive: expected a BRUME_NONPOSITIVE_...");
     expect(format.outputs < 16, "brume_format.outputs: expected BRUME_OUTPUT_... flags");
     expect(format.far_distance > 0, "brume_format.far_distance: expected a positive number");
     bool device = format.depth_kind == BRUME_DEPTH_DEVICE;

@@ -83,6 +83,7 @@ void fill_camera(const Scene &scene, const View &view, const brume_format &forma
     out.far_distance = float(std::min(format.far_distance * metres, 1e30));
     out.sky_distance = float(std::min(format.sky_distance * metres, 1e30));
     out.metres_per_unit = float(metres);
+    out.nonpositive = int32_t(format.nonpositive);
 }
 
 void check_camera(const brume_camera &camera)

@@ -209,6 +209,7 @@ void GlProgram::set_scene(const brume_plugin_scene &scene)
     set_float("brume_camera.far_distance", 1, &camera.far_distance);
     set_float("brume_camera.sky_distance", 1, &camera.sky_distance);
     set_float("brume_camera.metres_per_unit", 1, &camera.metres_per_unit);
+    set_int("brume_camera.nonpositive", camera.nonpositive);
 
     set_float("brume_output_limit", 1, &scene.output_limit);
     scene_ = scene;

@@ -13,6 +13,8 @@ const int sky_fog = 0;
 const int sky_keep = 1;
 const int sky_clamp = 2;
 
+const int nonpositive_near = 1;
+
 struct Ray {
     vec3 direction;  // unit, camera space, looking down -z
     float distance;  // to what the pixel shows [m], 0 to far_away
@@ -48,7 +50,7 @@ PURE float ray_distance(IN(Camera) camera, float raw, float stretch)
         float inverse = mix(camera.depth_range.x, camera.depth_range.y, clamp(raw, R(0.0), R(1.0)));
         along = inverse > R(1e-30) ? R(1.0) / inverse : far_away;
     } else if (raw <= R(0.0)) {
-        return far_away;
+        return camera.nonpositive == nonpositive_near ? R(0.0) : far_away;
     }
     if (along >= camera.far_distance)
         return far_away;

@@ -24,4 +24,5 @@ struct Camera {
     float far_distance;
     float sky_distance;
     float metres_per_unit;
+    int nonpositive;
 };

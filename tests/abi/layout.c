@@ -80,7 +80,7 @@ FIELD(brume_camera, pixel_aspect, 16, 8);
 FIELD(brume_camera, center, 24, 16);
 FIELD(brume_camera, camera_to_world, 40, 128);
 
-SIZE(brume_format, 72);
+SIZE(brume_format, 80);
 FIELD(brume_format, struct_size, 0, 4);
 FIELD(brume_format, width, 4, 4);
 FIELD(brume_format, height, 8, 4);
@@ -94,6 +94,8 @@ FIELD(brume_format, far_distance, 48, 8);
 FIELD(brume_format, sky, 56, 4);
 FIELD(brume_format, outputs, 60, 4);
 FIELD(brume_format, sky_distance, 64, 8);
+FIELD(brume_format, nonpositive, 72, 4);
+FIELD(brume_format, reserved, 76, 4);
 
 SIZE(brume_plan_info, 40);
 FIELD(brume_plan_info, struct_size, 0, 4);

@@ -125,6 +125,7 @@ TEST_P(Plans, FormatRefusesNonsense)
         {[](auto &f) { f.depth_kind = BRUME_DEPTH_DEVICE, f.depth_range[0] = 0; }, "depth_range"},
         {[](auto &f) { f.depth_kind = BRUME_DEPTH_DEVICE, f.depth_range[0] = f.depth_range[1] = 2; }, "depth_range"},
         {[](auto &f) { f.sky = BRUME_SKY_CLAMP, f.sky_distance = -1; }, "sky_distance"},
+        {[](auto &f) { f.nonpositive = 2; }, "nonpositive"},
         {[](auto &f) { f.sky = BRUME_SKY_CLAMP, f.sky_distance = NAN; }, "sky_distance"},
     };
     Scene scene = make_scene(context, foggy);

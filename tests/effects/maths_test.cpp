@@ -214,6 +214,10 @@ TEST(Maths, DepthKindsAgreeOnTheSameSurface)
     c.depth_kind = f32::depth_planar;
     for (float raw : {0.0f, -1.0f, -INFINITY, INFINITY, NAN, 1e9f, 1e30f, 3e38f})
         EXPECT_EQ(f32::ray_distance(c, raw, 1.5f), f32::far_away) << raw;
+    c.nonpositive = f32::nonpositive_near;
+    for (float raw : {0.0f, -1.0f})
+        EXPECT_EQ(f32::ray_distance(c, raw, 1.5f), 0.0f) << raw;
+    EXPECT_EQ(f32::ray_distance(c, NAN, 1.5f), f32::far_away);
     c.depth_kind = f32::depth_device;
     c.depth_range = {1 / 0.1f, 1 / 100.0f};
     EXPECT_EQ(f32::ray_distance(c, 1.0f, 1), f32::far_away) << "the cleared depth buffer";

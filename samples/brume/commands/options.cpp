@@ -89,6 +89,7 @@ void PictureOptions::add_to(CLI::App &command)
     command.add_option("--far", far, "Distances from here on are sky, in scene units")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+    command.add_flag("--zero-is-near", zero_is_near, "Depth of 0 or less is at the camera, not sky");
     command.add_option("--sky", sky_text, "fog, keep or clamp:DISTANCE")->capture_default_str()->type_name("HOW");
     auto *fov = command.add_option("--vfov", vertical_fov, "Vertical field of view of the display window, in degrees")
                     ->type_name("DEG");

@@ -13,7 +13,8 @@ namespace brume::tool {
 
 struct DepthKind {
     enum Type { kPlanar, kRay, kInverse, kNormalized } type = kPlanar;
-    double near = 0, far = 1;  ///< of normalized depth
+    double near = 0, far = 1;   ///< of normalized depth
+    bool zero_is_near = false;  ///< planar and ray depth <= 0 is at the camera, not sky
 
     static DepthKind parse(const std::string &text);
     std::string text() const;
@@ -32,11 +33,17 @@ struct PictureOptions {
     LayerRequest layers;
     std::string depth_kind_text = "planar", sky_text = "fog", camera_file;
     double far = 1e9;
+    bool zero_is_near = false;
     double vertical_fov = 0;  ///< [degrees]; 0: not given
 
     void add_to(CLI::App &command);
 
-    DepthKind depth_kind() const { return DepthKind::parse(depth_kind_text); }
+    DepthKind depth_kind() const
+    {
+        DepthKind kind = DepthKind::parse(depth_kind_text);
+        kind.zero_is_near = zero_is_near;
+        return kind;
+    }
     Sky sky() const { return Sky::parse(sky_text); }
 
     /// "FILE.exr:CHANNEL" names depth in a file of its own; empty where depth is in the picture's file.

@@ -15,7 +15,7 @@ bool is_far(double z, const DepthKind &kind, double far)
     case DepthKind::kNormalized:
         return !(z >= 0) || z >= 1 || kind.near + z * (kind.far - kind.near) >= far;
     default:
-        return !(z > 0) || z >= far;
+        return !(z > 0 || (kind.zero_is_near && z <= 0)) || z >= far;
     }
 }
 

@@ -138,6 +138,7 @@ Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) cons
     shot.format.depth_kind = kinds[kind.type];
     shot.format.depth_range[0] = kind.near;
     shot.format.depth_range[1] = kind.far;
+    shot.format.nonpositive = kind.zero_is_near ? BRUME_NONPOSITIVE_NEAR : BRUME_NONPOSITIVE_FAR;
     shot.format.far_distance = options_.picture.far;
     const Sky sky = options_.picture.sky();
     constexpr std::uint32_t skies[] = {BRUME_SKY_FOG, BRUME_SKY_KEEP, BRUME_SKY_CLAMP};

@@ -266,6 +266,9 @@ BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *eff
 #define BRUME_SKY_KEEP 1u  /* far pixels are returned without fog in front; glows of others still reach them */
 #define BRUME_SKY_CLAMP 2u /* far pixels are at sky_distance */
 
+#define BRUME_NONPOSITIVE_FAR 0u  /* planar and ray depth <= 0 is far: what many renderers write where nothing was hit */
+#define BRUME_NONPOSITIVE_NEAR 1u /* it is at the camera, with no medium in front */
+
 #define BRUME_OUTPUT_TRANSMITTANCE 1u /* exp(-tau), RGB */
 #define BRUME_OUTPUT_OPTICAL_DEPTH 2u /* tau, RGB; sky in a medium without end gives up to 1e30 times sigma */
 #define BRUME_OUTPUT_SCATTERED 4u     /* what was added to the attenuated image: scattered and emitted radiance, RGB */
@@ -282,12 +285,14 @@ typedef struct brume_format {
   uint32_t depth_kind;        /* BRUME_DEPTH_...; default PLANAR */
   double depth_range[2];      /* for NORMALIZED and DEVICE; in scene units; default (0, 1) */
   double far_distance;        /* planar or ray distances >= this are far, in scene units; default 1e9. NaN, infinite and
-                                 (but for DEVICE, and NORMALIZED at 0) values <= 0 always are. */
+                                 negative values are, too, and 0 but for DEVICE and NORMALIZED (see nonpositive). */
   uint32_t sky;               /* BRUME_SKY_...; default FOG */
   uint32_t outputs;           /* extra outputs wanted: BRUME_OUTPUT_... flags; default 0 */
   double sky_distance;        /* for BRUME_SKY_CLAMP, in scene units, along the ray */
+  uint32_t nonpositive;       /* BRUME_NONPOSITIVE_...; default FAR */
+  uint32_t reserved;          /* 0 */
 } brume_format;
-#define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0}
+#define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u}
 
 /* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
    nothing more once warm. */

@@ -66,6 +66,7 @@ typedef struct brume_plugin_camera {
   float far_distance;     /* [m] */
   float sky_distance;     /* [m] */
   float metres_per_unit;
+  int32_t nonpositive;    /* BRUME_NONPOSITIVE_... */
 } brume_plugin_camera;
 
 typedef struct brume_plugin_scene {

@@ -18,7 +18,8 @@
  * Rules that hold everywhere
  *   Status      Every call that can fail returns a brume_status. Codes unknown to you may come from a later library:
  *               treat every nonzero value as failure. brume_message() copies out the text of the calling thread's last
- *               failure in that context; nothing is sticky, and a failed call leaves its outputs and objects as they were.
+ *               failure in that context; nothing is sticky, and a failed call leaves its objects as they were. The output
+ *               images of a failed brume_plan_execute() may be half written.
  *   Structs     begin with struct_size; initialise them with their BRUME_..._INIT. A field counts when it lies wholly
  *               inside the struct_size given; the others take their defaults. Size 0 is refused, and so is a larger
  *               struct whose bytes past the end known here are not all zero.
@@ -245,8 +246,9 @@ BRUME_API brume_status brume_scene_set_metres_per_unit(brume_scene scene, double
 /* Luminance weights of the working colour space, >= 0 with a sum of 1; default Rec. 709 (.2126, .7152, .0722). */
 BRUME_API brume_status brume_scene_set_luminance_weights(brume_scene scene, const double weights[3]);
 
-/* Adds the effect with its defaults if it is not there, and sets one parameter; `parameter` NULL sets none. A scene to
-   which no effect was added gets every effect that its content needs. */
+/* Adds the effect with its defaults if it is not there, and sets one parameter; `parameter` NULL sets none. What the
+   content needs (multiscatter, where there is a medium) runs besides, unless the scene came from text that names its
+   effects. */
 BRUME_API brume_status brume_scene_set_text(brume_scene scene, const char *effect, const char *parameter, const char *value);
 BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *effect, const char *parameter, double value);
 
@@ -264,6 +266,9 @@ BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *eff
 #define BRUME_SKY_KEEP 1u  /* far pixels are returned without fog in front; glows of others still reach them */
 #define BRUME_SKY_CLAMP 2u /* far pixels are at sky_distance */
 
+#define BRUME_NONPOSITIVE_FAR 0u  /* planar and ray depth <= 0 is far: what many renderers write where nothing was hit */
+#define BRUME_NONPOSITIVE_NEAR 1u /* it is at the camera, with no medium in front */
+
 #define BRUME_OUTPUT_TRANSMITTANCE 1u /* exp(-tau), RGB */
 #define BRUME_OUTPUT_OPTICAL_DEPTH 2u /* tau, RGB; sky in a medium without end gives up to 1e30 times sigma */
 #define BRUME_OUTPUT_SCATTERED 4u     /* what was added to the attenuated image: scattered and emitted radiance, RGB */
@@ -280,12 +285,14 @@ typedef struct brume_format {
   uint32_t depth_kind;        /* BRUME_DEPTH_...; default PLANAR */
   double depth_range[2];      /* for NORMALIZED and DEVICE; in scene units; default (0, 1) */
   double far_distance;        /* planar or ray distances >= this are far, in scene units; default 1e9. NaN, infinite and
-                                 (but for DEVICE, and NORMALIZED at 0) values <= 0 always are. */
+                                 negative values are, too, and 0 but for DEVICE and NORMALIZED (see nonpositive). */
   uint32_t sky;               /* BRUME_SKY_...; default FOG */
   uint32_t outputs;           /* extra outputs wanted: BRUME_OUTPUT_... flags; default 0 */
   double sky_distance;        /* for BRUME_SKY_CLAMP, in scene units, along the ray */
+  uint32_t nonpositive;       /* BRUME_NONPOSITIVE_...; default FAR */
+  uint32_t reserved;          /* 0 */
 } brume_format;
-#define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0}
+#define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u}
 
 /* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
    nothing more once warm. */
