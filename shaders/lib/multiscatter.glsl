@@ -160,8 +160,8 @@ PURE float fetch_spread(sampler2D base, sampler2D stack, IN(Pyramid) pyramid, in
 }
 
 // L'_sc + L'_ssc at one pixel. The level comes from W, blurred once more at the level that W itself asks for (sec. 4.3,
-// "Blurring": the paper blurs P, but in pixels W also depends on the distance, so W is what is blurred). The level of the
-// separated light comes from the luminance-weighted W at the fixed level k_ssc.
+// "Blurring"; the paper blurs P and takes W of that, but P has no bound in a sky). The level of the separated light comes
+// from the luminance-weighted W at the fixed level k_ssc.
 PURE vec3 gathered(sampler2D radiance, sampler2D radiance_stack, sampler2D spread_stack, sampler2D separated,
               sampler2D separated_stack, IN(Pyramid) pyramid, IN(Filter) f, vec2 pixel, float spread)
 {
