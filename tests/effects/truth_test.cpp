@@ -50,8 +50,7 @@ TEST(Truth, PaperKernelOnPathTracedScenes)
 {
     const std::filesystem::path folder = std::filesystem::path(BRUME_SHARED_DIR) / "truth";
     if (std::string(BRUME_SHARED_DIR).empty() || !std::filesystem::exists(folder)) {
-        printf("no path-traced scenes here: nothing compared\n");
-        return;
+        GTEST_SKIP() << "no path-traced scenes here";
     }
     double product = 1, unfogged = 1;
     int pairs = 0;
