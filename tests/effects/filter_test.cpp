@@ -405,9 +405,18 @@ TEST_P(Backends, SeparationKeepsTheGlowOfNearLightsBeforeAFarBackground)
     EXPECT_GT(with, 2 * without + 1);
 }
 
-TEST_P(Backends, CoarserStopsAndPlansSaySo)
+// K stopping early caps the blur: with one level a lit pixel reaches its neighbourhood, with all of them the whole image.
+TEST_P(Backends, FewerLevelsCapTheBlur)
 {
-    Picture color = random_color(100, 60, 9), depth = constant_depth(100, 60, 50);
-    for (int levels : {1, 2, 5})
-        run(context(), scene("\"scattering\":0.05", "\"levels\":" + std::to_string(levels)), color, depth);
+    Picture color(100, 60, 4, 0), depth = constant_depth(100, 60, 50);
+    color.at(20, 30)[0] = 1000;
+    auto far_away = [&](int levels) {
+        auto r = run(context(), scene("\"scattering\":0.05", plain_filter + ",\"levels\":" + std::to_string(levels)), color,
+                     depth, {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
+        EXPECT_GT(r.scattered.at(20, 30)[0], 0);
+        return r.scattered.at(60, 30)[0];
+    };
+    EXPECT_EQ(far_away(1), 0);
+    EXPECT_EQ(far_away(2), 0);
+    EXPECT_GT(far_away(0), 0);
 }
