@@ -215,7 +215,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
                                      BRUME_WANTED_WITH_MEDIUM,
                                      BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED |
                                          BRUME_OUTPUT_BLUR_RADIUS,
-                                     0,
+                                     1,
                                      uint32_t(parameter_table().size()),
                                      parameter_table().data(),
                                      plan,

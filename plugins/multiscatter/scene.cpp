@@ -16,6 +16,7 @@ Medium medium_of(const brume_plugin_scene &scene)
     medium.absorption = rgb(m.absorption);
     medium.emission = rgb(m.emission);
     medium.luminance = rgb(m.luminance);
+    medium.phase = vec4(m.phase[0], m.phase[1], m.phase[2], m.phase[3]);
     medium.asymmetry = m.asymmetry;
     medium.constant = m.constant;
     medium.term_count = m.term_count;
@@ -27,10 +28,11 @@ Medium medium_of(const brume_plugin_scene &scene)
 Camera camera_of(const brume_plugin_scene &scene)
 {
     const auto &c = scene.camera;
+    auto rgb = [](const float(&v)[3]) { return vec3(v[0], v[1], v[2]); };
     auto pair = [](const float(&v)[2]) { return vec2(v[0], v[1]); };
     return Camera{pair(c.focal),       pair(c.tangent_scale), pair(c.center), c.depth_kind,     c.sky,
                   pair(c.depth_range), c.far_distance,        c.sky_distance, c.metres_per_unit,
-                  c.nonpositive};
+                  c.nonpositive,       rgb(c.right),         rgb(c.up),    rgb(c.back)};
 }
 
 namespace {

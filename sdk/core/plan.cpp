@@ -143,9 +143,9 @@ void brume_host_t::plan_effects()
     });
     if (!scene_.medium && scene_.effects.empty())
         entries_.push_back({false, "brume", "medium", "the scene has no medium: nothing to do", 0, 0, 0});
-    if (scene_.light_count)
+    if (!scene_.lights.empty())
         entries_.push_back({false, "brume", "lights",
-                            std::to_string(scene_.light_count) + " lights: no effect of this scene reads them", 0, 0, 0});
+                            std::to_string(scene_.lights.size()) + " lights: no effect of this scene reads them", 0, 0, 0});
 
     for (auto &planned : effects_) {
         for (const Parameter &parameter : planned.effect->parameters)

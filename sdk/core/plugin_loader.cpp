@@ -21,7 +21,8 @@ constexpr uint32_t most_parameters = 256;
 constexpr size_t longest_name = 63;
 constexpr size_t longest_text = 4095;
 constexpr uint32_t known_outputs =
-    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS;
+    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS |
+    BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR | BRUME_OUTPUT_LIGHT_AIRLIGHT;
 constexpr double largest_integer = 9007199254740992.0;  // 2^53: beyond it a double skips integers
 
 struct Refusal : std::runtime_error {
@@ -173,12 +174,12 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.help = copy_text(table.help, "effect.help");
     if (table.thread_safety > BRUME_THREADS_SAFE)
         refuse("effect.thread_safety: {}; expected a BRUME_THREADS_... of this library", table.thread_safety);
-    if (table.wanted > BRUME_WANTED_WITH_MEDIUM)
+    if (table.wanted > BRUME_WANTED_WITH_LIGHTS)
         refuse("effect.wanted: {}; expected a BRUME_WANTED_... of this library", table.wanted);
     if (table.outputs & ~known_outputs)
         refuse("effect.outputs: {:#x}; expected BRUME_OUTPUT_... flags of this library", table.outputs);
-    if (table.reserved != 0)
-        refuse("effect.reserved: {}; expected 0", table.reserved);
+    if (table.attenuates > 1)
+        refuse("effect.attenuates: {}; expected 0 or 1", table.attenuates);
     if (!table.plan || !table.execute || !table.destroy)
         refuse("effect.{}: NULL; expected a function", !table.plan ? "plan" : !table.execute ? "execute" : "destroy");
     effect.order = table.order;

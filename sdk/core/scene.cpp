@@ -100,15 +100,24 @@ double draine_mean_cosine(double g, double alpha)
     return g * (1.0 + alpha * (3.0 + 2.0 * g * g) / 5.0) / (1.0 + alpha * (1.0 + 2.0 * g * g) / 3.0);
 }
 
-// Of the mixture of Henyey-Greenstein and Draine that Jendersie and d'Eon 2023 fit to Mie scattering by droplets of
+// Henyey-Greenstein, or the mixture of it and Draine that Jendersie and d'Eon 2023 fit to Mie scattering by droplets of
 // diameter d [um].
-double droplet_mean_cosine(double d)
+void evaluate_phase(const Medium &medium, const FrameValues &values, brume_plugin_medium &out)
 {
+    if (!medium.droplet_diameter) {
+        out.asymmetry = out.phase[0] = float(values.get(medium.g, ranges::asymmetry, "medium.g"));
+        return;
+    }
+    const double d = values.get(*medium.droplet_diameter, ranges::droplet_diameter, "medium.droplet_diameter");
     const double g_hg = std::exp(-0.0990567 / (d - 1.67154));
     const double g_draine = std::exp(-2.20679 / (d + 3.91029) - 0.428934);
     const double alpha = std::exp(3.62489 - 8.29288 / (d + 5.52825));
     const double weight = std::exp(-0.599085 / (d - 0.641583) - 0.665888);
-    return (1.0 - weight) * g_hg + weight * draine_mean_cosine(g_draine, alpha);
+    out.phase[0] = float(g_hg);
+    out.phase[1] = float(g_draine);
+    out.phase[2] = float(alpha);
+    out.phase[3] = float(weight);
+    out.asymmetry = float((1.0 - weight) * g_hg + weight * draine_mean_cosine(g_draine, alpha));
 }
 
 // Of the camera, in metres.
@@ -240,10 +249,7 @@ void evaluate_medium(const Scene &scene, double frame, const std::array<double, 
         out.absorption[i] = float(absorption[i]);
         out.emission[i] = float(emission[i]);
     }
-    out.asymmetry = float(
-        medium.droplet_diameter
-            ? droplet_mean_cosine(values.get(*medium.droplet_diameter, ranges::droplet_diameter, "medium.droplet_diameter"))
-            : values.get(medium.g, ranges::asymmetry, "medium.g"));
+    evaluate_phase(medium, values, out);
     evaluate_density(scene, values, camera_to_world, out);
 }
 

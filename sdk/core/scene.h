@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +9,8 @@
 
 #include <brume/brume.h>
 #include <brume/brume_plugin.h>
+
+#include "core/gaussian.h"
 
 namespace brume {
 
@@ -31,12 +34,45 @@ struct DensityTerm {
     Number3 origin{};  // scene units
 };
 
+// A Gaussian density term of which some number may be keyed.
+struct GaussianTerm {
+    Number3 center{};
+    Number scale = 1.0, amplitude = 1.0;
+    Number3 colour{Number(1.0), Number(1.0), Number(1.0)};
+};
+
+// Gaussians in bulk: from a file, one per frame if its name has a frame pattern, or from the C API. Plans share them.
+struct GaussianSet {
+    std::string file;  // "" where `fixed` came through the API
+    std::shared_ptr<const std::vector<Gaussian>> fixed;  // null: `file` has a frame pattern and is read at each frame
+    Number amplitude = 1.0;  // times each of theirs
+};
+
 struct Medium {
     Number3 scattering{}, absorption{}, emission{};  // [1/m], [1/m], [radiance/m], at unit density
     Number g = 0.0;
     std::optional<Number> visibility;        // [m]
     std::optional<Number> droplet_diameter;  // [um]
-    std::vector<DensityTerm> density;        // empty: constant 1
+    std::vector<DensityTerm> density;        // with neither these nor Gaussians: constant 1
+    std::vector<GaussianTerm> gaussians;
+    std::vector<GaussianSet> gaussian_sets;
+};
+
+struct Light {
+    uint32_t type = BRUME_LIGHT_POINT;
+    Number3 position{};  // scene units
+    Number3 direction{Number(0.0), Number(0.0), Number(-1.0)};
+    Number3 intensity{Number(1.0), Number(1.0), Number(1.0)};
+    Number radius = 0.0;               // scene units
+    Number angle = 0.7853981633974483;  // [rad], of the whole cone
+    Number penumbra = 0.1;
+    Number distance = 0.0;  // scene units
+};
+
+// Distant light as real spherical harmonics in world axes.
+struct Environment {
+    std::vector<std::array<double, 3>> coefficients;
+    std::string file;  // named by the scene's text and not resolved yet
 };
 
 struct Camera {
@@ -57,7 +93,8 @@ struct Scene {
     std::array<double, 3> luminance{0.2126, 0.7152, 0.0722};
     std::optional<Medium> medium;
     Camera camera;
-    size_t light_count = 0;               // lights that the file has; no effect reads them yet
+    std::vector<Light> lights;
+    Environment environment;
     std::vector<EffectSettings> effects;  // those that the file or a call set
     bool effects_named = false;           // the file names its effects: what the content needs is not added to them
 
@@ -81,5 +118,11 @@ Scene with_peak_medium(Scene scene);
 
 void evaluate_medium(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
                      brume_plugin_medium &out);
+
+// The lights and the Gaussians of one frame, camera-relative. Gaussians without density are left out.
+void evaluate_lights(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
+                     std::vector<brume_plugin_light> &out);
+void evaluate_gaussians(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
+                        std::vector<brume_plugin_gaussian> &out);
 
 }  // namespace brume

@@ -313,7 +313,7 @@ Scene read_scene(const JsonNode &root, const EffectRegistry &registry)
     if (const auto medium = root.find("medium"))
         scene.medium = read_medium(*medium);
     if (const auto lights = root.find("lights"))
-        scene.light_count = read_lights(*lights);
+        scene.lights.resize(read_lights(*lights));
     if (const auto effects = root.find("effects"))
         for (const JsonMember &member : effects->object())
             scene.effects.push_back(read_effect(*effects, member, registry));

@@ -84,6 +84,11 @@ void fill_camera(const Scene &scene, const View &view, const brume_format &forma
     out.sky_distance = float(std::min(format.sky_distance * metres, 1e30));
     out.metres_per_unit = float(metres);
     out.nonpositive = int32_t(format.nonpositive);
+    for (int i = 0; i < 3; ++i) {
+        out.right[i] = float(view.camera_to_world[size_t(4 * i)]);
+        out.up[i] = float(view.camera_to_world[size_t(4 * i + 1)]);
+        out.back[i] = float(view.camera_to_world[size_t(4 * i + 2)]);
+    }
 }
 
 void check_camera(const brume_camera &camera)

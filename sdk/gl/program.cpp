@@ -194,6 +194,7 @@ void GlProgram::set_scene(const brume_plugin_scene &scene)
     set_float("brume_medium.absorption", 3, medium.absorption);
     set_float("brume_medium.emission", 3, medium.emission);
     set_float("brume_medium.luminance", 3, medium.luminance);
+    set_float("brume_medium.phase", 4, medium.phase);
     set_float("brume_medium.asymmetry", 1, &medium.asymmetry);
     set_float("brume_medium.constant", 1, &medium.constant);
     set_int("brume_medium.term_count", medium.term_count);
@@ -210,6 +211,9 @@ void GlProgram::set_scene(const brume_plugin_scene &scene)
     set_float("brume_camera.sky_distance", 1, &camera.sky_distance);
     set_float("brume_camera.metres_per_unit", 1, &camera.metres_per_unit);
     set_int("brume_camera.nonpositive", camera.nonpositive);
+    set_float("brume_camera.right", 3, camera.right);
+    set_float("brume_camera.up", 3, camera.up);
+    set_float("brume_camera.back", 3, camera.back);
 
     set_float("brume_output_limit", 1, &scene.output_limit);
     scene_ = scene;

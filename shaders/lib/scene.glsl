@@ -8,6 +8,7 @@ struct Medium {
     vec3 absorption;   // sigma_a at unit density [1/m]
     vec3 emission;     // at unit density [radiance/m]
     vec3 luminance;    // weights of the working space
+    vec4 phase;        // g of Henyey-Greenstein, g and alpha of Draine, weight of Draine
     float asymmetry;   // g, mean cosine of the phase function
     float constant;    // sum of the constant density terms
     int term_count;
@@ -25,4 +26,7 @@ struct Camera {
     float sky_distance;
     float metres_per_unit;
     int nonpositive;
+    vec3 right;          // the camera's axes in the world
+    vec3 up;
+    vec3 back;
 };

@@ -61,7 +61,7 @@ FIELD(brume_density_term, falloff, 16, 8);
 FIELD(brume_density_term, direction, 24, 24);
 FIELD(brume_density_term, origin, 48, 24);
 
-SIZE(brume_medium, 112);
+SIZE(brume_medium, 128);
 FIELD(brume_medium, struct_size, 0, 4);
 FIELD(brume_medium, term_count, 4, 4);
 FIELD(brume_medium, scattering, 8, 24);
@@ -130,7 +130,7 @@ FIELD(brume_image, data, 32, 8);
 FIELD(brume_image, pixel_stride, 40, 8);
 FIELD(brume_image, row_stride, 48, 8);
 
-SIZE(brume_extra_output, 16);
+SIZE(brume_extra_output, 24);
 FIELD(brume_extra_output, struct_size, 0, 4);
 FIELD(brume_extra_output, output, 4, 4);
 FIELD(brume_extra_output, image, 8, 8);

@@ -54,7 +54,7 @@ const brume_effect effect{
     .thread_safety = BRUME_THREADS_UNSAFE,
     .wanted = BRUME_WANTED_NEVER,
     .outputs = 0,
-    .reserved = 0,
+    .attenuates = 0,
     .parameter_count = 0,
     .parameters = nullptr,
     .plan = plan,

@@ -102,7 +102,7 @@ TEST_F(EffectsTest, RefusesWithTheReason)
         {"bad_thread_safety", "effect.thread_safety: 7; expected a BRUME_THREADS_... of this library"},
         {"bad_wanted", "effect.wanted: 7; expected a BRUME_WANTED_... of this library"},
         {"unknown_outputs", "effect.outputs: 0x100; expected BRUME_OUTPUT_... flags of this library"},
-        {"reserved_set", "effect.reserved: 1; expected 0"},
+        {"attenuates_two", "effect.attenuates: 2; expected 0 or 1"},
         {"billion_parameters", "parameter_count: 1000000000; expected at most 256"},
         {"null_parameters", "parameters: NULL; expected 2 of them"},
         {"null_parameter_name", "parameters[1].name: NULL; expected a string"},

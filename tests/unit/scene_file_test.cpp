@@ -76,7 +76,7 @@ TEST(SceneFile, ReadsEverything)
     EXPECT_EQ(scene.medium->density[2].falloff.at(0), 0.25);
     EXPECT_EQ(scene.medium->density[2].direction[2].at(0), 2.0);
     EXPECT_EQ(scene.medium->density[2].origin[2].at(0), 3.0);
-    EXPECT_EQ(scene.light_count, 3u);
+    EXPECT_EQ(scene.lights.size(), 3u);
     ASSERT_EQ(scene.effects.size(), 1u);
     EXPECT_EQ(scene.effects[0].name, "well_behaved");
     EXPECT_EQ(scene.effects[0].parameters,
@@ -91,7 +91,7 @@ TEST(SceneFile, DefaultsAreThoseOfAnEmptyScene)
     EXPECT_FALSE(scene.medium);
     EXPECT_FALSE(scene.camera.camera_to_world);
     EXPECT_TRUE(scene.effects.empty());
-    EXPECT_EQ(scene.light_count, 0u);
+    EXPECT_EQ(scene.lights.size(), 0u);
     EXPECT_FALSE(scene.animated());
 
     const Scene droplets = parse(with(R"("medium": {"visibility": 200, "droplet_diameter": 12, "density": []})"));

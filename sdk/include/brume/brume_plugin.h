@@ -49,7 +49,8 @@ typedef struct brume_plugin_medium {
   float absorption[3];
   float emission[3];    /* [radiance/m] */
   float luminance[3];   /* weights of the working space */
-  float asymmetry;      /* g */
+  float phase[4];       /* phase function: g of Henyey-Greenstein, g and alpha of Draine, weight of Draine (0: none) */
+  float asymmetry;      /* g, the phase function's mean cosine */
   float constant;       /* sum of the constant density terms */
   int32_t term_count;
   float terms[BRUME_MAX_DENSITY_TERMS][4]; /* exponential: xyz = falloff * direction in camera space [1/m], w = log of
@@ -67,7 +68,32 @@ typedef struct brume_plugin_camera {
   float sky_distance;     /* [m] */
   float metres_per_unit;
   int32_t nonpositive;    /* BRUME_NONPOSITIVE_... */
+  float right[3];         /* the camera's axes in the world: what is d in camera space is d.x right + d.y up + d.z back */
+  float up[3];
+  float back[3];
 } brume_plugin_camera;
+
+/* One Gaussian of the medium: density amplitude * exp(-scale^2 |x - center|^2) (Fogshop eq. 7). Two texels of
+   frame->gaussians. */
+typedef struct brume_plugin_gaussian {
+  float center[3];  /* camera space [m] */
+  float scale;      /* a [1/m], > 0 */
+  float amplitude;  /* c, ratio to unit density, >= 0 */
+  float colour[3];  /* share of what it scatters that is not absorbed after all, 0 to 1: tints airlight, not extinction */
+} brume_plugin_gaussian;
+
+/* A light. Four texels of frame->lights, hence floats only. */
+typedef struct brume_plugin_light {
+  float position[3];  /* camera space [m]; DIRECTIONAL: 0 */
+  float radius;       /* [m], >= 0; DIRECTIONAL: 0 */
+  float direction[3]; /* camera space, unit: where SPOT and DIRECTIONAL shine to */
+  float cos_outer;    /* SPOT: cosine of the half angle where its light ends */
+  float intensity[3]; /* POINT, SPOT: [radiance m^2], so that irradiance is intensity / d^2; DIRECTIONAL: irradiance */
+  float cos_inner;    /* SPOT: of the half angle where it begins to fall off, >= cos_outer */
+  float type;         /* BRUME_LIGHT_... */
+  float distance;     /* DIRECTIONAL: [m] of the constant terms that its light has come through */
+  float reserved[2];
+} brume_plugin_light;
 
 typedef struct brume_plugin_scene {
   uint32_t struct_size;
@@ -75,7 +101,14 @@ typedef struct brume_plugin_scene {
   brume_plugin_medium medium;
   brume_plugin_camera camera;
   float output_limit;     /* largest magnitude the output's pixel type holds: 65504 or FLT_MAX */
-  uint32_t reserved;
+  uint32_t light_count;
+  uint32_t gaussian_count;
+  uint32_t environment_count; /* of spherical-harmonic coefficients: 0, 1, 4, 9, 16, 25 or 36 */
+  const brume_plugin_light *lights;
+  const brume_plugin_gaussian *gaussians;
+  const float (*environment)[3]; /* RGB of each coefficient, in the order of brume_scene_set_environment; world axes */
+  double position[3];            /* of the camera in the world [m] */
+  uint64_t revision; /* of lights, Gaussians and medium in the world: the same number, the same values; the camera may move */
 } brume_plugin_scene;
 
 /* ---- planning ---------------------------------------------------------------------------------------------------- */
@@ -92,6 +125,8 @@ typedef struct brume_plugin_request {
                                       is zero in every frame. Frames may bring another camera. */
   uint32_t animated;               /* 1: some value of the scene is keyed */
   uint32_t pose_matters;           /* 1: some density term depends on the position */
+  uint32_t attenuated;             /* 1: an effect that runs before this one attenuates the image by the medium */
+  uint32_t reserved;
 } brume_plugin_request;
 
 typedef struct brume_plugin_entry {
@@ -116,7 +151,24 @@ typedef struct brume_plugin_frame {
   brume_plugin_image optical_depth; /* RGBA, NULL unless wanted */
   brume_plugin_image scattered;     /* RGBA, NULL unless wanted */
   brume_plugin_image blur_radius;   /* one channel, NULL unless wanted */
+  brume_plugin_image airlight;      /* RGBA, NULL unless wanted */
+  brume_plugin_image airlight_error; /* RGBA, NULL unless wanted */
+  const brume_plugin_image *light_airlight; /* one RGBA image per light of the scene, each NULL unless wanted; or NULL */
+
+  /* What the host made of the scene's Gaussians and lights; NULL where there are none (a slot left unbound). */
+  brume_plugin_image gaussian_density; /* 2 channels per pixel: their int rho dt to what the pixel shows [m at unit
+                                          density], and int rho (1 - t/D)^2 dt */
+  brume_plugin_image gaussians;        /* data: 2 texels each, as brume_plugin_gaussian */
+  brume_plugin_image lights;           /* data: 4 texels each, as brume_plugin_light */
+  brume_plugin_image tiles;            /* data: per tile of BRUME_TILE_SIZE squared pixels, row by row: x the first and y the
+                                          number of its entries in tile_gaussians */
+  brume_plugin_image tile_gaussians;   /* data, one channel: indices of the Gaussians that matter in the tile, by distance */
 } brume_plugin_frame;
+
+#define BRUME_TILE_SIZE 16
+
+/* Data images are arrays of texels: texel i is at (i % BRUME_DATA_WIDTH, i / BRUME_DATA_WIDTH). See upload(). */
+#define BRUME_DATA_WIDTH 1024
 
 /* A slot that a pass leaves unbound reads as (0, 0, 0, 1) and drops what is written to it. */
 #define BRUME_ACCESS_FETCH 0u  /* sampler2D, nearest: for texelFetch */
@@ -195,6 +247,11 @@ typedef struct brume_services {
                        void *user);
   /* In execute(), CPU only: the memory of an image. */
   brume_status (*pixels)(brume_host host, brume_plugin_image image, brume_plugin_pixels *out);
+
+  /* In plan() or execute(): a data image of 1 or 4 channels with this content (copied), to be read only. It lives until the
+     effect uploads to the same slot (0 to 63, the effect's own numbering) again, or the plan ends. */
+  brume_status (*upload)(brume_host host, uint32_t slot, int32_t channels, const float *values, uint64_t texels,
+                         brume_plugin_image *out);
 } brume_services;
 
 /* ---- the effect -------------------------------------------------------------------------------------------------- */
@@ -205,6 +262,7 @@ typedef struct brume_services {
 
 #define BRUME_WANTED_NEVER 0u      /* runs only in scenes that name it */
 #define BRUME_WANTED_WITH_MEDIUM 1u /* also in scenes that have a medium and name no effects */
+#define BRUME_WANTED_WITH_LIGHTS 2u /* also in scenes that have a medium and lights or an environment, and name no effects */
 
 typedef struct brume_effect {
   uint32_t struct_size;
@@ -215,7 +273,7 @@ typedef struct brume_effect {
   uint32_t thread_safety;   /* BRUME_THREADS_... */
   uint32_t wanted;          /* BRUME_WANTED_... */
   uint32_t outputs;         /* the BRUME_OUTPUT_... flags that it can fill */
-  uint32_t reserved;        /* 0 */
+  uint32_t attenuates;      /* 1: its output is attenuated by the medium, so later effects must not do it again */
   uint32_t parameter_count; /* at most 256 */
   const brume_parameter_info *parameters; /* each of parameters[0].struct_size */
 

@@ -60,7 +60,7 @@ const brume_effect effect{
     .thread_safety = BRUME_THREADS_SAFE,
     .wanted = BRUME_WANTED_NEVER,
     .outputs = 0,
-    .reserved = 0,
+    .attenuates = 0,
     .parameter_count = 0,
     .parameters = nullptr,
     .plan = plan,

@@ -44,7 +44,7 @@ Table table{{
     .thread_safety = BRUME_THREADS_SAFE,
     .wanted = BRUME_WANTED_NEVER,
     .outputs = 0,
-    .reserved = 0,
+    .attenuates = 0,
     .parameter_count = 2,
     .parameters = parameters.data(),
     .plan = plan,
@@ -93,8 +93,8 @@ void break_effect(brume_effect &effect)
         effect.wanted = 7;
     if (test_case == "unknown_outputs")
         effect.outputs = 0x100;
-    if (test_case == "reserved_set")
-        effect.reserved = 1;
+    if (test_case == "attenuates_two")
+        effect.attenuates = 2;
     if (test_case == "billion_parameters")
         effect.parameter_count = 1000000000u;
     if (test_case == "null_parameters")
