@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "api/handles.h"
 #include "api/structs.h"
@@ -29,6 +32,58 @@ DensityTerm read_term(const brume_density_term *given, size_t index)
     term = read_struct(given, term, name.c_str(), &brume_density_term::type, &brume_density_term::value,
                        &brume_density_term::falloff, &brume_density_term::direction, &brume_density_term::origin);
     return {term.type, term.value, term.falloff, numbers(term.direction), numbers(term.origin)};
+}
+
+// Element i of a caller's array, whose stride is the size that its first element names.
+template <class Struct> const Struct *element(const Struct *first, size_t i)
+{
+    return reinterpret_cast<const Struct *>(reinterpret_cast<const unsigned char *>(first) + i * first->struct_size);
+}
+
+Gaussian read_gaussian(const brume_gaussian *given, const std::string &name)
+{
+    brume_gaussian read = BRUME_GAUSSIAN_INIT;
+    read = read_struct(given, read, name.c_str(), &brume_gaussian::center, &brume_gaussian::scale,
+                       &brume_gaussian::amplitude, &brume_gaussian::colour);
+    Gaussian gaussian;
+    std::copy_n(read.center, 3, gaussian.center.begin());
+    gaussian.scale = read.scale;
+    gaussian.amplitude = read.amplitude;
+    std::transform(read.colour, read.colour + 3, gaussian.colour.begin(), [](double x) { return float(x); });
+    check_gaussian(gaussian, name);
+    return gaussian;
+}
+
+std::vector<GaussianSet> read_gaussians(const brume_medium &medium)
+{
+    expect(medium.gaussians || medium.gaussian_count == 0, "brume_medium.gaussians: NULL with a gaussian_count above 0");
+    if (medium.gaussian_count > BRUME_MAX_GAUSSIANS)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("brume_medium.gaussian_count: {}; expected at most {}",
+                                                      medium.gaussian_count, BRUME_MAX_GAUSSIANS));
+    if (medium.gaussian_count == 0)
+        return {};
+    auto gaussians = std::make_shared<std::vector<Gaussian>>();
+    gaussians->reserve(medium.gaussian_count);
+    for (size_t i = 0; i < medium.gaussian_count; ++i)
+        gaussians->push_back(
+            read_gaussian(element(medium.gaussians, i), "brume_medium.gaussians[" + std::to_string(i) + "]"));
+    GaussianSet set;
+    set.file = "brume_medium.gaussians";
+    set.fixed = std::move(gaussians);
+    return {set};
+}
+
+Light read_light(const brume_light *given, const std::string &name)
+{
+    brume_light read = BRUME_LIGHT_INIT;
+    read = read_struct(given, read, name.c_str(), &brume_light::type, &brume_light::position, &brume_light::direction,
+                       &brume_light::intensity, &brume_light::radius, &brume_light::angle, &brume_light::penumbra,
+                       &brume_light::distance);
+    const Light light{
+        read.type,     numbers(read.position), numbers(read.direction), numbers(read.intensity), read.radius, read.angle,
+        read.penumbra, read.distance};
+    check_light(light, name);
+    return light;
 }
 
 EffectSettings &settings_of(Scene &scene, const Effect &effect)
@@ -88,7 +143,8 @@ brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *give
         brume_medium medium = BRUME_MEDIUM_INIT;
         medium = read_struct(given, medium, "brume_medium", &brume_medium::term_count, &brume_medium::scattering,
                              &brume_medium::absorption, &brume_medium::emission, &brume_medium::g, &brume_medium::visibility,
-                             &brume_medium::droplet_diameter, &brume_medium::terms);
+                             &brume_medium::droplet_diameter, &brume_medium::terms, &brume_medium::gaussians,
+                             &brume_medium::gaussian_count);
         Medium result;
         result.scattering = numbers(medium.scattering);
         result.absorption = numbers(medium.absorption);
@@ -100,13 +156,48 @@ brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *give
             result.droplet_diameter = medium.droplet_diameter;
         expect(medium.terms || medium.term_count == 0, "brume_medium.terms: NULL with a term_count above 0");
         expect(medium.term_count <= 4096, "brume_medium.term_count: expected 0 to 4096");
-        auto bytes = reinterpret_cast<const unsigned char *>(medium.terms);
         for (size_t i = 0; i < medium.term_count; ++i)
-            result.density.push_back(
-                read_term(reinterpret_cast<const brume_density_term *>(bytes + i * medium.terms->struct_size), i));
+            result.density.push_back(read_term(element(medium.terms, i), i));
+        result.gaussian_sets = read_gaussians(medium);
         check_medium(result);
         scene.medium = std::move(result);
     });
+}
+
+brume_status brume_scene_set_lights(brume_scene handle, const brume_light *given, uint32_t count)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        expect(given || count == 0, "lights: NULL with a count above 0");
+        if (count > BRUME_MAX_LIGHTS)
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("count: {}; expected at most {} lights", count, BRUME_MAX_LIGHTS));
+        std::vector<Light> lights;
+        for (size_t i = 0; i < count; ++i)
+            lights.push_back(read_light(element(given, i), "lights[" + std::to_string(i) + "]"));
+        scene.lights = std::move(lights);
+    });
+}
+
+brume_status brume_scene_set_environment(brume_scene handle, const double *coefficients, uint32_t count)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        expect(coefficients || count == 0, "coefficients: NULL with a count above 0");
+        if (count != 0 && !is_environment_count(count))
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("count: {}; expected 0, 1, 4, 9, 16, 25 or 36", count));
+        Environment environment;
+        for (size_t i = 0; i < count; ++i)
+            environment.coefficients.push_back({coefficients[3 * i], coefficients[3 * i + 1], coefficients[3 * i + 2]});
+        check_environment(environment);
+        scene.environment = std::move(environment);
+    });
+}
+
+size_t brume_scene_environment_file(brume_scene handle, uint32_t *up, char *buffer, size_t capacity)
+{
+    static const Environment none;
+    const Environment &environment = handle ? handle->scene.environment : none;
+    if (up)
+        *up = environment.file_up;
+    return copy_text(environment.file, buffer, capacity);
 }
 
 brume_status brume_scene_set_camera(brume_scene handle, const brume_camera *given)

@@ -4,10 +4,7 @@
 #include <cfloat>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "core/error.h"
-#include "core/scene_ranges.h"
+#include "core/frame_values.h"
 
 namespace brume {
 namespace {
@@ -34,11 +31,33 @@ bool animated(const DensityTerm &term)
     return term.value.animated() || term.falloff.animated() || any_animated(term.direction) || any_animated(term.origin);
 }
 
+bool animated(const GaussianTerm &term)
+{
+    return any_animated(term.center) || term.scale.animated() || term.amplitude.animated() || any_animated(term.colour);
+}
+
+bool animated(const GaussianSet &set)
+{
+    return set.frames || set.amplitude.animated();
+}
+
+template <class Terms> bool any_term_animated(const Terms &terms)
+{
+    return std::any_of(terms.begin(), terms.end(), [](const auto &term) { return animated(term); });
+}
+
 bool animated(const Medium &medium)
 {
     return any_animated(medium.scattering) || any_animated(medium.absorption) || any_animated(medium.emission) ||
            medium.g.animated() || any_animated(medium.visibility) || any_animated(medium.droplet_diameter) ||
-           std::any_of(medium.density.begin(), medium.density.end(), [](const DensityTerm &t) { return animated(t); });
+           any_term_animated(medium.density) || any_term_animated(medium.gaussians) ||
+           any_term_animated(medium.gaussian_sets);
+}
+
+bool animated(const Light &light)
+{
+    return any_animated(light.position) || any_animated(light.direction) || any_animated(light.intensity) ||
+           light.radius.animated() || light.angle.animated() || light.penumbra.animated() || light.distance.animated();
 }
 
 bool animated(const Camera &camera)
@@ -46,48 +65,6 @@ bool animated(const Camera &camera)
     return any_animated(camera.vertical_fov) || any_animated(camera.horizontal_fov) || camera.pixel_aspect.animated() ||
            any_animated(camera.center) || (camera.camera_to_world && any_animated(*camera.camera_to_world));
 }
-
-// A scene's numbers at one frame, each checked.
-class FrameValues {
-public:
-    explicit FrameValues(double frame) : frame_(frame) {}
-
-    double check(double value, const Range &range, const std::string &name) const
-    {
-        if (!range.contains(value))
-            throw Error(BRUME_ERROR_ARGUMENT,
-                        fmt::format("{}: {} at frame {}; expected {}", name, value, frame_, range.describe()));
-        return value;
-    }
-
-    double get(const Number &number, const Range &range, const std::string &name) const
-    {
-        return check(number.at(frame_), range, name);
-    }
-
-    std::array<double, 3> get(const Number3 &numbers, const Range &range, const std::string &name) const
-    {
-        std::array<double, 3> values;
-        for (size_t i = 0; i < 3; ++i)
-            values[i] = get(numbers[i], range, fmt::format("{}[{}]", name, i));
-        return values;
-    }
-
-    std::array<double, 3> unit_vector(const Number3 &numbers, const std::string &name) const
-    {
-        std::array<double, 3> v = get(numbers, ranges::any, name);
-        const double length = std::hypot(v[0], v[1], v[2]);
-        if (length == 0.0)
-            throw Error(BRUME_ERROR_ARGUMENT,
-                        fmt::format("{}: (0, 0, 0) at frame {}; expected a vector that is not zero", name, frame_));
-        for (double &x : v)
-            x /= length;
-        return v;
-    }
-
-private:
-    double frame_;
-};
 
 double dot(const std::array<double, 3> &a, const std::array<double, 3> &b)
 {
@@ -120,31 +97,13 @@ void evaluate_phase(const Medium &medium, const FrameValues &values, brume_plugi
     out.asymmetry = float((1.0 - weight) * g_hg + weight * draine_mean_cosine(g_draine, alpha));
 }
 
-// Of the camera, in metres.
-struct Pose {
-    std::array<double, 3> position;
-    std::array<std::array<double, 3>, 3> axes;
-
-    Pose(const std::array<double, 16> &camera_to_world, double metres_per_unit, const FrameValues &values)
-    {
-        const auto &m = camera_to_world;
-        values.check(metres_per_unit, ranges::positive, "metres_per_unit");
-        for (size_t i = 0; i < m.size(); ++i)
-            values.check(m[i], ranges::any, fmt::format("camera.camera_to_world[{}][{}]", i / 4, i % 4));
-        for (size_t row = 0; row < 3; ++row) {
-            position[row] = m[4 * row + 3] * metres_per_unit;
-            for (size_t column = 0; column < 3; ++column)
-                axes[column][row] = m[4 * row + column];
-        }
-    }
-};
-
 void evaluate_density(const Scene &scene, const FrameValues &values, const std::array<double, 16> &camera_to_world,
                       brume_plugin_medium &out)
 {
     const Pose pose(camera_to_world, scene.metres_per_unit, values);
     const std::vector<DensityTerm> &terms = scene.medium->density;
-    double constant = terms.empty() ? 1.0 : 0.0;
+    const bool gaussians = !scene.medium->gaussians.empty() || !scene.medium->gaussian_sets.empty();
+    double constant = terms.empty() && !gaussians ? 1.0 : 0.0;
     for (size_t i = 0; i < terms.size(); ++i) {
         const std::string name = fmt::format("medium.density[{}]", i);
         const DensityTerm &term = terms[i];
@@ -174,6 +133,14 @@ void evaluate_density(const Scene &scene, const FrameValues &values, const std::
     out.constant = float(std::min(constant, double(FLT_MAX)));
 }
 
+// Stands for Gaussians of which only a frame tells: unit density wherever one looks.
+std::shared_ptr<const std::vector<Gaussian>> unknown_gaussians()
+{
+    Gaussian everywhere;
+    everywhere.scale = ranges::positive.minimum;
+    return std::make_shared<const std::vector<Gaussian>>(1, everywhere);
+}
+
 }  // namespace
 
 double Number::at(double frame) const
@@ -190,14 +157,22 @@ double Number::at(double frame) const
 
 bool Scene::animated() const
 {
-    return (medium && brume::animated(*medium)) || brume::animated(camera);
+    return (medium && brume::animated(*medium)) || brume::animated(camera) ||
+           std::any_of(lights.begin(), lights.end(), [](const Light &light) { return brume::animated(light); });
 }
 
 bool pose_matters(const Scene &scene)
 {
-    return scene.medium && std::any_of(scene.medium->density.begin(), scene.medium->density.end(), [](const auto &term) {
-               return term.type == BRUME_DENSITY_EXPONENTIAL && !always_zero(term.falloff) && !always_zero(term.value);
-           });
+    if (!scene.medium)
+        return false;
+    const auto dense = [](const auto &term) { return !always_zero(term.amplitude); };
+    const auto varies = [](const DensityTerm &term) {
+        return term.type == BRUME_DENSITY_EXPONENTIAL && !always_zero(term.falloff) && !always_zero(term.value);
+    };
+    const Medium &medium = *scene.medium;
+    return std::any_of(medium.density.begin(), medium.density.end(), varies) ||
+           std::any_of(medium.gaussians.begin(), medium.gaussians.end(), dense) ||
+           std::any_of(medium.gaussian_sets.begin(), medium.gaussian_sets.end(), dense);
 }
 
 Scene with_peak_medium(Scene scene)
@@ -212,9 +187,19 @@ Scene with_peak_medium(Scene scene)
     for (Number3 *numbers : {&medium.scattering, &medium.absorption, &medium.emission})
         std::for_each(numbers->begin(), numbers->end(), peak);
     if (medium.visibility)
-        medium.visibility = std::min_element(medium.visibility->keys.begin(), medium.visibility->keys.end(), by_value)->second;
+        medium.visibility =
+            std::min_element(medium.visibility->keys.begin(), medium.visibility->keys.end(), by_value)->second;
     for (DensityTerm &term : medium.density)
         peak(term.value);
+    for (GaussianTerm &term : medium.gaussians)
+        peak(term.amplitude);
+    for (GaussianSet &set : medium.gaussian_sets) {
+        peak(set.amplitude);
+        if (set.frames) {
+            set.frames.reset();
+            set.fixed = unknown_gaussians();
+        }
+    }
     return scene;
 }
 
@@ -237,10 +222,11 @@ void evaluate_medium(const Scene &scene, double frame, const std::array<double, 
         for (size_t i = 0; i < 3; ++i) {
             // Room for the rounding of a visibility that stands for the absorption alone.
             if (absorption[i] > extinction * (1 + 1e-6))
-                throw Error(BRUME_ERROR_ARGUMENT,
-                            fmt::format("medium.visibility: stands for an extinction of {:.6g} / m, below the absorption[{}] of "
-                                        "{:.6g} / m; expected at most {:.6g} m",
-                                        extinction, i, absorption[i], koschmieder / absorption[i]));
+                throw Error(
+                    BRUME_ERROR_ARGUMENT,
+                    fmt::format("medium.visibility: stands for an extinction of {:.6g} / m, below the absorption[{}] of "
+                                "{:.6g} / m; expected at most {:.6g} m",
+                                extinction, i, absorption[i], koschmieder / absorption[i]));
             scattering[i] = std::max(extinction - absorption[i], 0.0);
         }
     }

@@ -14,6 +14,8 @@
 
 namespace brume {
 
+class GaussianFrames;
+
 // A number that may change over the frames: linear between keys, constant outside them.
 struct Number {
     std::vector<std::pair<double, double>> keys{{0.0, 0.0}};  // (frame, value), ascending frames, never empty
@@ -43,9 +45,10 @@ struct GaussianTerm {
 
 // Gaussians in bulk: from a file, one per frame if its name has a frame pattern, or from the C API. Plans share them.
 struct GaussianSet {
-    std::string file;  // "" where `fixed` came through the API
-    std::shared_ptr<const std::vector<Gaussian>> fixed;  // null: `file` has a frame pattern and is read at each frame
-    Number amplitude = 1.0;  // times each of theirs
+    std::string file;  // as messages name them
+    std::shared_ptr<const std::vector<Gaussian>> fixed;
+    std::shared_ptr<const GaussianFrames> frames;  // instead of `fixed`: a file per frame
+    Number amplitude = 1.0;                        // times each of theirs
 };
 
 struct Medium {
@@ -63,7 +66,7 @@ struct Light {
     Number3 position{};  // scene units
     Number3 direction{Number(0.0), Number(0.0), Number(-1.0)};
     Number3 intensity{Number(1.0), Number(1.0), Number(1.0)};
-    Number radius = 0.0;               // scene units
+    Number radius = 0.0;                // scene units
     Number angle = 0.7853981633974483;  // [rad], of the whole cone
     Number penumbra = 0.1;
     Number distance = 0.0;  // scene units
@@ -72,7 +75,8 @@ struct Light {
 // Distant light as real spherical harmonics in world axes.
 struct Environment {
     std::vector<std::array<double, 3>> coefficients;
-    std::string file;  // named by the scene's text and not resolved yet
+    std::string file;  // image named by the scene's text of which there are no coefficients yet
+    uint32_t file_up = BRUME_UP_Y;
 };
 
 struct Camera {
@@ -109,17 +113,19 @@ Scene parse_scene(const std::string &text, const std::string &name, const Effect
 // JSON Schema of scene files with the parameters of these effects.
 std::string scene_schema(const EffectRegistry &effects);
 
-// Scene values at one frame, camera-relative, as effects see them. needs_pose: some density term depends on position.
-// Throws Error(BRUME_ERROR_ARGUMENT) where values contradict each other.
+// Whether some density term depends on the position.
 bool pose_matters(const Scene &scene);
 
 // The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
+// Gaussians of a file per frame are taken for unit density everywhere.
 Scene with_peak_medium(Scene scene);
 
+// Scene values at one frame, camera-relative, as effects see them. Throw Error(BRUME_ERROR_ARGUMENT) where values
+// contradict each other.
 void evaluate_medium(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
                      brume_plugin_medium &out);
 
-// The lights and the Gaussians of one frame, camera-relative. Gaussians without density are left out.
+// Gaussians without density are left out.
 void evaluate_lights(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,
                      std::vector<brume_plugin_light> &out);
 void evaluate_gaussians(const Scene &scene, double frame, const std::array<double, 16> &camera_to_world,

@@ -8,17 +8,29 @@
 namespace brume {
 namespace {
 
+void check(double value, const Range &range, const std::string &name)
+{
+    if (!range.contains(value))
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {}; expected {}", name, value, range.describe()));
+}
+
 void check(const Number &number, const Range &range, const std::string &name)
 {
     for (auto &[frame, value] : number.keys)
-        if (!range.contains(value))
-            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {}; expected {}", name, value, range.describe()));
+        check(value, range, name);
 }
 
 void check(const Number3 &numbers, const Range &range, const std::string &name)
 {
     for (size_t i = 0; i < 3; ++i)
         check(numbers[i], range, fmt::format("{}[{}]", name, i));
+}
+
+void check_direction(const Number3 &direction, const std::string &name)
+{
+    check(direction, ranges::any, name);
+    if (std::all_of(direction.begin(), direction.end(), [](const Number &n) { return n.at(0) == 0; }))
+        throw Error(BRUME_ERROR_ARGUMENT, name + ": (0, 0, 0); expected a direction");
 }
 
 }  // namespace
@@ -44,14 +56,56 @@ void check_medium(const Medium &medium)
             continue;
         ++exponential;
         check(term.falloff, ranges::not_negative, name + ".falloff");
-        check(term.direction, ranges::any, name + ".direction");
+        check_direction(term.direction, name + ".direction");
         check(term.origin, ranges::any, name + ".origin");
-        if (std::all_of(term.direction.begin(), term.direction.end(), [](const Number &n) { return n.at(0) == 0; }))
-            throw Error(BRUME_ERROR_ARGUMENT, name + ".direction: (0, 0, 0); expected a direction");
     }
     if (exponential > BRUME_MAX_DENSITY_TERMS)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.terms: {} exponential ones; expected at most {}", exponential,
                                                       BRUME_MAX_DENSITY_TERMS));
+}
+
+void check_gaussian(const Gaussian &gaussian, const std::string &name)
+{
+    // Names are made only where they are needed: there may be a million of these.
+    const auto within = [](const auto &values, const Range &range) {
+        return std::all_of(values.begin(), values.end(), [&](double x) { return range.contains(x); });
+    };
+    if (within(gaussian.center, ranges::any) && within(gaussian.colour, ranges::fraction) &&
+        ranges::positive.contains(gaussian.scale) && ranges::not_negative.contains(gaussian.amplitude))
+        return;
+    for (size_t i = 0; i < 3; ++i) {
+        check(gaussian.center[i], ranges::any, fmt::format("{}.center[{}]", name, i));
+        check(double(gaussian.colour[i]), ranges::fraction, fmt::format("{}.colour[{}]", name, i));
+    }
+    check(gaussian.scale, ranges::positive, name + ".scale");
+    check(gaussian.amplitude, ranges::not_negative, name + ".amplitude");
+}
+
+void check_light(const Light &light, const std::string &name)
+{
+    if (light.type > BRUME_LIGHT_DIRECTIONAL)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
+    check(light.intensity, ranges::not_negative, name + ".intensity");
+    if (light.type != BRUME_LIGHT_POINT)
+        check_direction(light.direction, name + ".direction");
+    if (light.type == BRUME_LIGHT_DIRECTIONAL) {
+        check(light.distance, ranges::not_negative, name + ".distance");
+        return;
+    }
+    check(light.position, ranges::any, name + ".position");
+    check(light.radius, ranges::not_negative, name + ".radius");
+    if (light.type == BRUME_LIGHT_SPOT) {
+        check(light.angle, ranges::spot_angle, name + ".angle");
+        check(light.penumbra, ranges::fraction, name + ".penumbra");
+    }
+}
+
+void check_environment(const Environment &environment)
+{
+    const auto &coefficients = environment.coefficients;
+    for (size_t i = 0; i < coefficients.size(); ++i)
+        for (size_t channel = 0; channel < 3; ++channel)
+            check(coefficients[i][channel], ranges::any, fmt::format("environment[{}][{}]", i, channel));
 }
 
 }  // namespace brume

@@ -3,7 +3,16 @@
 
 namespace brume {
 
-// A medium that came in structs, held to the same ranges as a scene file's; throws Error(BRUME_ERROR_ARGUMENT).
+// What came in structs, held to the same ranges as a scene file's; throw Error(BRUME_ERROR_ARGUMENT).
 void check_medium(const Medium &medium);
+void check_gaussian(const Gaussian &gaussian, const std::string &name);
+void check_light(const Light &light, const std::string &name);
+void check_environment(const Environment &environment);
+
+// Spherical harmonics up to a whole order, at most the fifth.
+constexpr bool is_environment_count(size_t count)
+{
+    return count == 1 || count == 4 || count == 9 || count == 16 || count == 25 || count == 36;
+}
 
 }  // namespace brume

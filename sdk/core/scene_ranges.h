@@ -28,10 +28,12 @@ inline constexpr double huge = 1e30;
 inline constexpr Range any{-huge, huge};
 inline constexpr Range not_negative{0.0, huge};
 inline constexpr Range positive{1e-30, huge};
+inline constexpr Range fraction{0.0, 1.0};
 inline constexpr Range asymmetry{-1.0, 1.0};
-inline constexpr Range droplet_diameter{5.0, 50.0};      // [um]; the domain of the fit
-inline constexpr Range field_of_view{0.0, 180.0, true};  // [degrees]
-inline constexpr Range spot_angle{0.0, 180.0};           // [degrees]; of the whole cone
+inline constexpr Range droplet_diameter{5.0, 50.0};         // [um]; the domain of the fit
+inline constexpr Range field_of_view{0.0, 180.0, true};     // [degrees]
+inline constexpr Range spot_angle{0.0, 3.141592653589793};  // [rad]; of the whole cone
+inline constexpr Range spot_degrees{0.0, 180.0};
 inline constexpr Range pixel_aspect{1e-3, 1e3};
 inline constexpr Range center{-1e6, 1e6};
 inline constexpr Range frame{-1e9, 1e9};

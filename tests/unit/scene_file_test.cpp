@@ -1,3 +1,5 @@
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -52,10 +54,14 @@ TEST(SceneFile, ReadsEverything)
                     "g": -0.5,
                     "density": [ {"type": "constant"}, {"type": "constant", "value": 0.5},
                                  {"type": "exponential", "value": 2, "falloff": 0.25, "direction": [0,0,2],
-                                  "origin": [1,2,3]} ] },
+                                  "origin": [1,2,3]},
+                                 {"type": "gaussian", "center": [1,2,{"keys": [[1,3],[2,4]]}], "scale": 0.5,
+                                  "amplitude": {"keys": [[1,1],[2,0]]}, "colour": [1,0.5,0]} ] },
         "lights": [ {"type": "point", "position": [0,5,2], "intensity": [10,8,6], "radius": 0.1},
-                    {"type": "spot", "position": [0,5,2], "direction": [0,-1,0], "intensity": 3, "angle": 40},
-                    {"type": "directional", "direction": [0,-1,0], "intensity": 3} ],
+                    {"type": "spot", "position": [0,5,2], "direction": [0,-1,0], "intensity": 3, "angle": 40,
+                     "penumbra": 0.25},
+                    {"type": "directional", "direction": [0,-1,0], "intensity": {"keys": [[1,3],[2,5]]}, "distance": 7} ],
+        "environment": { "sh": [[1,2,3], [4,5,6], [7,8,9], [-1,-2,-3]] },
         "effects": { "well_behaved": {"strength": 2, "levels": 3, "masking": false, "kernel": "paper"} } })");
     EXPECT_EQ(scene.metres_per_unit, 0.01);
     EXPECT_NEAR(scene.camera.vertical_fov->at(0), std::numbers::pi / 2, 1e-15);
@@ -76,7 +82,26 @@ TEST(SceneFile, ReadsEverything)
     EXPECT_EQ(scene.medium->density[2].falloff.at(0), 0.25);
     EXPECT_EQ(scene.medium->density[2].direction[2].at(0), 2.0);
     EXPECT_EQ(scene.medium->density[2].origin[2].at(0), 3.0);
-    EXPECT_EQ(scene.lights.size(), 3u);
+    ASSERT_EQ(scene.medium->gaussians.size(), 1u);
+    EXPECT_EQ(scene.medium->gaussians[0].center[2].at(1.5), 3.5);
+    EXPECT_EQ(scene.medium->gaussians[0].scale.at(0), 0.5);
+    EXPECT_EQ(scene.medium->gaussians[0].amplitude.at(1.5), 0.5);
+    EXPECT_EQ(scene.medium->gaussians[0].colour[1].at(0), 0.5);
+    ASSERT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.lights[0].type, BRUME_LIGHT_POINT);
+    EXPECT_EQ(scene.lights[0].position[1].at(0), 5.0);
+    EXPECT_EQ(scene.lights[0].intensity[2].at(0), 6.0);
+    EXPECT_EQ(scene.lights[0].radius.at(0), 0.1);
+    EXPECT_EQ(scene.lights[1].type, BRUME_LIGHT_SPOT);
+    EXPECT_NEAR(scene.lights[1].angle.at(0), std::numbers::pi * 40 / 180, 1e-15);
+    EXPECT_EQ(scene.lights[1].penumbra.at(0), 0.25);
+    EXPECT_EQ(scene.lights[1].direction[1].at(0), -1.0);
+    EXPECT_EQ(scene.lights[2].type, BRUME_LIGHT_DIRECTIONAL);
+    EXPECT_EQ(scene.lights[2].intensity[2].at(1.5), 4.0);
+    EXPECT_EQ(scene.lights[2].distance.at(0), 7.0);
+    ASSERT_EQ(scene.environment.coefficients.size(), 4u);
+    EXPECT_EQ(scene.environment.coefficients[3][1], -2.0);
+    EXPECT_EQ(scene.environment.file, "");
     ASSERT_EQ(scene.effects.size(), 1u);
     EXPECT_EQ(scene.effects[0].name, "well_behaved");
     EXPECT_EQ(scene.effects[0].parameters,
@@ -112,10 +137,10 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
 {
     const BadScene cases[] = {
         {R"("colour": 1)", R"(2:1: unknown key "colour"; expected one of brume, metres_per_unit, camera, medium, )"
-                           "lights, effects, quality"},
+                           "lights, environment, effects, quality"},
         {R"("medium": {"scatering": 1})", R"(2:12: unknown key "scatering"; did you mean "scattering"?)"},
         {R"("é": 1, "mediun": {})", R"(2:1: unknown key "é"; expected one of brume, metres_per_unit, camera, medium, )"
-                                    "lights, effects, quality"},
+                                    "lights, environment, effects, quality"},
         {R"("lights": [], "mediun": {})", R"(2:15: unknown key "mediun"; did you mean "medium"?)"},
         {R"("medium": 1)", "2:11: medium: 1; expected an object"},
         {R"("medium": null)", "2:11: medium: null; expected an object"},
@@ -137,14 +162,21 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("medium": {"droplet_diameter": 4})", "2:32: medium.droplet_diameter: 4; expected a number from 5 to 50"},
         {R"("medium": {"density": {}})", "2:23: medium.density: an object; expected an array of density terms"},
         {R"("medium": {"density": [{}]})", R"(2:24: medium.density[0]: has no "type"; expected one)"},
-        {R"("medium": {"density": [{"type": "gaussian", "center": [0,0,0]}]})",
-         R"(2:33: medium.density[0].type: "gaussian"; expected "constant" or "exponential": this version has no )"
-         "Gaussian terms"},
-        {R"("medium": {"density": [{"type": "gaussians"}]})",
-         R"(2:33: medium.density[0].type: "gaussians"; expected "constant" or "exponential": this version has no )"
-         "Gaussian terms"},
         {R"("medium": {"density": [{"type": "linear"}]})",
-         R"(2:33: medium.density[0].type: "linear"; expected "constant" or "exponential")"},
+         R"(2:33: medium.density[0].type: "linear"; expected "constant", "exponential", "gaussian" or "gaussians")"},
+        {R"("medium": {"density": [{"type": "gaussian", "center": [0,0,0]}]})",
+         R"(2:24: medium.density[0]: has no "scale"; expected one)"},
+        {R"("medium": {"density": [{"type": "gaussian", "center": [0,0,0], "scale": 0}]})",
+         "2:73: medium.density[0].scale: 0; expected a number from 1e-30 to 1e+30"},
+        {R"("medium": {"density": [{"type": "gaussian", "center": [0,0,0], "scale": 1, "colour": [2,0,0]}]})",
+         "2:87: medium.density[0].colour[0]: 2; expected a number from 0 to 1"},
+        {R"("medium": {"density": [{"type": "gaussian", "centre": [0,0,0]}]})",
+         R"(2:45: unknown key "centre"; did you mean "center"?)"},
+        {R"("medium": {"density": [{"type": "gaussians"}]})", R"(2:24: medium.density[0]: has no "file"; expected one)"},
+        {R"("medium": {"density": [{"type": "gaussians", "file": 7}]})",
+         "2:54: medium.density[0].file: 7; expected the name of a CSV or PLY file"},
+        {R"("medium": {"density": [{"type": "gaussians", "file": "%d.####.csv"}]})",
+         "2:54: medium.density[0].file: %d.####.csv: more than one frame number in the name; expected one"},
         {R"("medium": {"density": [{"type": "constant", "falloff": 1}]})",
          R"(2:45: unknown key "falloff"; expected one of type, value)"},
         {R"("medium": {"density": [{"type": "exponential", "direction": [0, 0, -0]}]})",
@@ -188,6 +220,18 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("lights": [{"type": "point", "position": [0,0,0]}])", R"(2:12: lights[0]: has no "intensity"; expected one)"},
         {R"("lights": [{"type": "point", "direction": [0,0,1]}])",
          R"(2:30: unknown key "direction"; expected one of type, intensity, position, radius)"},
+        {R"("lights": [{"type": "spot", "position": [0,0,0], "direction": [0,0,1], "intensity": 1, "angle": 181}])",
+         "2:97: lights[0].angle: 181; expected a number from 0 to 180"},
+        {R"("environment": {})", R"(2:16: environment: has no "sh"; expected one)"},
+        {R"("environment": {"sh": [[1,1,1]], "file": "sky.exr"})",
+         R"(2:34: "file" beside "sh"; expected one of them: they say the same thing)"},
+        {R"("environment": {"sh": [[1,1,1]], "up": "z"})", R"(2:34: unknown key "up"; expected one of sh)"},
+        {R"("environment": {"sh": [[1,1,1], [1,1,1]]})",
+         "2:23: environment.sh: an array of 2; expected 1, 4, 9, 16, 25 or 36 [r, g, b] triples"},
+        {R"("environment": {"sh": [[1,1]]})", "2:24: environment.sh[0]: an array of 2; expected an [r, g, b] triple"},
+        {R"("environment": {"sh": [[1,1,1e31]]})",
+         "2:29: environment.sh[0][2]: 1e+31; expected a number from -1e+30 to 1e+30"},
+        {R"("environment": {"file": "sky.exr", "up": "x"})", R"(2:42: environment.up: "x"; expected "y" or "z")"},
         {R"("effects": {"wel_behaved": {}})", R"(2:13: no effect "wel_behaved"; did you mean "well_behaved"?)"},
         {R"("effects": {"well_behaved": false})", "2:29: effects.well_behaved: false; expected an object"},
         {R"("effects": {"well_behaved": {"level": 1}})",
@@ -227,11 +271,36 @@ TEST(SceneFile, RefusesWhatIsNoScene)
     EXPECT_EQ(failure("{\"brume\": 1} x"),
               "fog.json:1:14: syntax error while parsing value - invalid literal; expected end of input");
     EXPECT_EQ(failure(std::string("{\"brume\": 1}\0x", 14)), "fog.json:1:13: NUL byte; expected JSON text");
-    EXPECT_EQ(failure("{\"brume\": 1, \"" + std::string(500, 'x') + "\": 1}").size(), 194u);
+    EXPECT_EQ(failure("{\"brume\": 1, \"" + std::string(500, 'x') + "\": 1}").size(), 207u);
     EXPECT_EQ(failure("\"" + std::string(1 << 20, 'x')),
               "fog.json:1:1048578: syntax error while parsing value - invalid string: missing closing quote");
     EXPECT_EQ(failure(std::string(100000, '[')), "fog.json:1:65: nested deeper than 64 levels");
     EXPECT_EQ(failure(std::string((8 << 20) + 1, ' ')), "fog.json: 8388609 bytes; expected at most 8388608");
+}
+
+TEST(SceneFile, FindsFilesBesideItself)
+{
+    const std::string folder = testing::TempDir() + "brume_scene_files";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder + "/puffs.csv") << "x,y,z,scale,amplitude\n1,2,3,0.5,0.25\n";
+    const std::string text = R"({ "brume": 1, "environment": {"file": "sky.exr", "up": "z"}, "medium": {"density": [
+        {"type": "gaussians", "file": "puffs.csv", "amplitude": 2}, {"type": "gaussians", "file": "smoke.####.ply"}]} })";
+    const Scene scene = parse_scene(text, folder + "/fog.json", registry());
+    std::filesystem::remove_all(folder);
+    EXPECT_EQ(scene.environment.file, folder + "/sky.exr");
+    EXPECT_EQ(scene.environment.file_up, BRUME_UP_Z);
+    ASSERT_EQ(scene.medium->gaussian_sets.size(), 2u);
+    const GaussianSet &fixed = scene.medium->gaussian_sets[0];
+    ASSERT_TRUE(fixed.fixed);
+    EXPECT_FALSE(fixed.frames);
+    EXPECT_EQ(fixed.fixed->at(0).center[2], 3.0);
+    EXPECT_EQ(fixed.amplitude.at(0), 2.0);
+    EXPECT_TRUE(scene.medium->gaussian_sets[1].frames);
+    EXPECT_TRUE(scene.animated());
+
+    EXPECT_EQ(failure(with(R"("medium": {"density": [{"type": "gaussians", "file": "none.csv"}]})"))
+                  .rfind("fog.json:2:54: medium.density[0].file: none.csv: ", 0),
+              0u);
 }
 
 TEST(SceneFile, BoundsExponentialTerms)

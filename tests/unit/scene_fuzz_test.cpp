@@ -14,8 +14,11 @@ const std::string good = R"({ "brume": 1,
   "camera": { "vertical_fov": 50, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,{"keys":[[1,2.5],[9,3]]}],[0,0,0,1]] },
   "medium": { "scattering": [0.02,0.02,0.02], "absorption": 1e-3, "g": {"keys": [[1, 0.8], [2, 0.9]]},
               "density": [ {"type":"constant","value":1},
-                           {"type":"exponential","value":1,"falloff":0.25,"direction":[0,0,1],"origin":[0,0,0]} ] },
-  "lights": [ {"type":"point","position":[0,5,2],"intensity":[10,8,6],"radius":0.1} ],
+                           {"type":"exponential","value":1,"falloff":0.25,"direction":[0,0,1],"origin":[0,0,0]},
+                           {"type":"gaussian","center":[0,5,1],"scale":0.5,"amplitude":0.3} ] },
+  "lights": [ {"type":"point","position":[0,5,2],"intensity":[10,8,6],"radius":0.1},
+              {"type":"spot","position":[0,5,2],"direction":[0,-1,0],"intensity":3,"angle":40,"penumbra":0.5} ],
+  "environment": {"sh": [[1,2,3]]},
   "effects": { "well_behaved": {"strength": 2.5, "levels": 3, "masking": true, "kernel": "paper"} } })";
 
 const std::string fragments[] = {"{",
@@ -106,6 +109,10 @@ TEST(SceneFuzz, MutatedFilesAreScenesOrErrors)
         try {
             brume_plugin_medium medium;
             evaluate_medium(scene, 1.5, identity, medium);
+            std::vector<brume_plugin_light> lights;
+            evaluate_lights(scene, 1.5, identity, lights);
+            std::vector<brume_plugin_gaussian> gaussians;
+            evaluate_gaussians(scene, 1.5, identity, gaussians);
         } catch (const Error &error) {
             ASSERT_EQ(error.status(), BRUME_ERROR_ARGUMENT) << error.what() << "\n" << text;
         }

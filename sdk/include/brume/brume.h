@@ -268,9 +268,13 @@ BRUME_API brume_status brume_scene_set_lights(brume_scene scene, const brume_lig
    Y_1m = .4886 (y, z, x). */
 BRUME_API brume_status brume_scene_set_environment(brume_scene scene, const double *coefficients, uint32_t count);
 
-/* The environment image that the scene's text names, which the library does not read; "" if none. Copied as brume_message
-   does. Planning such a scene fails until brume_scene_set_environment gives its coefficients. */
-BRUME_API size_t brume_scene_environment_file(brume_scene scene, char *buffer, size_t capacity);
+#define BRUME_UP_Y 0u /* the centre of a lat-long image is toward -z */
+#define BRUME_UP_Z 1u /* toward +y */
+
+/* The lat-long environment image that the scene's text names, which the library does not read; "" if none. Copied as
+   brume_message does. Its top row is toward the world axis `up` (BRUME_UP_..., may be NULL) and to the right of its centre is
+   +x. Planning such a scene fails until brume_scene_set_environment gives its coefficients. */
+BRUME_API size_t brume_scene_environment_file(brume_scene scene, uint32_t *up, char *buffer, size_t capacity);
 
 #define BRUME_CAMERA_FIELD_OF_VIEW 1u /* vertical_fov, pixel_aspect and center are given */
 #define BRUME_CAMERA_POSE 2u          /* camera_to_world is given */

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include "core/scene_check.h"
+#include "core/scene_file.h"
+#include "core/scene_numbers.h"
+
+namespace brume {
+namespace {
+
+Light read_light(const JsonNode &node)
+{
+    const JsonNode type = node.get("type");
+    const std::string what = "\"point\", \"spot\" or \"directional\"";
+    const std::string &name = type.string(what);
+    Light light;
+    if (name == "point") {
+        node.allow_only({"type", "intensity", "position", "radius"});
+    } else if (name == "spot") {
+        light.type = BRUME_LIGHT_SPOT;
+        node.allow_only({"type", "intensity", "position", "radius", "direction", "angle", "penumbra"});
+    } else if (name == "directional") {
+        light.type = BRUME_LIGHT_DIRECTIONAL;
+        node.allow_only({"type", "intensity", "direction", "distance"});
+    } else {
+        type.expected(what);
+    }
+    light.intensity = read_rgb(node.get("intensity"), ranges::not_negative);
+    if (light.type != BRUME_LIGHT_DIRECTIONAL)
+        light.position = read_vector(node.get("position"), ranges::any);
+    if (light.type != BRUME_LIGHT_POINT)
+        light.direction = read_direction(node.get("direction"));
+    if (const auto radius = node.find("radius"))
+        light.radius = read_number(*radius, ranges::not_negative);
+    if (const auto angle = node.find("angle"))
+        light.angle = in_radians(read_number(*angle, ranges::spot_degrees));
+    if (const auto penumbra = node.find("penumbra"))
+        light.penumbra = read_number(*penumbra, ranges::fraction);
+    if (const auto distance = node.find("distance"))
+        light.distance = read_number(*distance, ranges::not_negative);
+    return light;
+}
+
+}  // namespace
+
+std::vector<Light> read_lights(const JsonNode &node)
+{
+    const size_t count = node.array_size("an array of lights");
+    if (count > BRUME_MAX_LIGHTS)
+        node.expected(fmt::format("at most {} lights", BRUME_MAX_LIGHTS));
+    std::vector<Light> lights;
+    for (size_t i = 0; i < count; ++i)
+        lights.push_back(read_light(node.item(i)));
+    return lights;
+}
+
+Environment read_environment(const JsonNode &node, const std::filesystem::path &folder)
+{
+    node.allow_only({"sh", "file", "up"});
+    node.refuse_both("sh", "file");
+    Environment environment;
+    if (const auto file = node.find("file")) {
+        environment.file = (folder / file->string("the name of an image")).string();
+        if (const auto up = node.find("up")) {
+            const std::string &axis = up->string("\"y\" or \"z\"");
+            if (axis != "y" && axis != "z")
+                up->expected("\"y\" or \"z\"");
+            environment.file_up = axis == "z" ? BRUME_UP_Z : BRUME_UP_Y;
+        }
+        return environment;
+    }
+    const JsonNode list = node.get("sh");
+    node.allow_only({"sh"});
+    const std::string what = "1, 4, 9, 16, 25 or 36 [r, g, b] triples";
+    const size_t count = list.array_size(what);
+    if (!is_environment_count(count))
+        list.expected(what);
+    for (size_t i = 0; i < count; ++i) {
+        const JsonNode triple = list.item(i);
+        triple.check_array_size(3, "an [r, g, b] triple");
+        environment.coefficients.push_back({read_constant(triple.item(0), ranges::any),
+                                            read_constant(triple.item(1), ranges::any),
+                                            read_constant(triple.item(2), ranges::any)});
+    }
+    return environment;
+}
+
+}  // namespace brume
