@@ -63,6 +63,7 @@ Json definitions()
     direction["not"] = {{"const", {0, 0, 0}}};
     return {{"number", number(ranges::any)},
             {"not_negative", number(ranges::not_negative)},
+            {"fraction", number(ranges::fraction)},
             {"field_of_view", number(ranges::field_of_view)},
             {"rgb", {{"anyOf", Json::array({reference("not_negative"), array_of(reference("not_negative"), 3)})}}},
             {"vector", vector},
@@ -94,9 +95,23 @@ Json density()
                    {"direction", described(reference("direction"), "The density falls along it; [0, 1, 0] by default")},
                    {"origin", described(reference("vector"), "Where the density has its value; scene units")}},
                   {"type"});
+    const Json tint{{"anyOf", Json::array({reference("fraction"), array_of(reference("fraction"), 3)})}};
+    const Json gaussian_term =
+        object_of({{"type", {{"const", "gaussian"}}},
+                   {"center", described(reference("vector"), "Scene units")},
+                   {"scale", described(number(ranges::positive), "a of exp(-a^2 |x - center|^2) [1/scene unit]")},
+                   {"amplitude", described(reference("not_negative"), "Ratio to unit density; 1 by default")},
+                   {"colour", described(tint, "Share of what it would scatter that is not absorbed; 1 by default")}},
+                  {"type", "center", "scale"});
+    const Json gaussians_term = object_of(
+        {{"type", {{"const", "gaussians"}}},
+         {"file", described({{"type", "string"}},
+                            "CSV or PLY, relative to the scene file; one per frame with %04d or #### in its name")},
+         {"amplitude", described(reference("not_negative"), "Times each of theirs; 1 by default")}},
+        {"type", "file"});
     return {{"type", "array"},
             {"description", "Terms that add up; none: constant 1"},
-            {"items", {{"oneOf", Json::array({constant_term, exponential_term})}}},
+            {"items", {{"oneOf", Json::array({constant_term, exponential_term, gaussian_term, gaussians_term})}}},
             {"contains", {{"properties", {{"type", {{"const", "exponential"}}}}}}},
             {"minContains", 0},
             {"maxContains", BRUME_MAX_DENSITY_TERMS}};
@@ -118,21 +133,45 @@ Json medium()
 
 Json lights()
 {
-    const Json position = reference("vector"), direction = reference("direction"), intensity = reference("rgb"),
-               radius = reference("not_negative"), angle = number(ranges::spot_angle);
+    const Json type_of_point{{"const", "point"}}, type_of_spot{{"const", "spot"}}, type_of_sun{{"const", "directional"}};
+    const Json position = described(reference("vector"), "Scene units");
+    const Json direction = described(reference("direction"), "Where it shines to");
+    const Json radiant = described(reference("rgb"), "[radiance m^2]: pi r^2 times the radiance of a sphere of radius r");
+    const Json irradiance = described(reference("rgb"), "Irradiance on a surface that faces it");
+    const Json radius = described(reference("not_negative"), "Scene units; 0 by default");
+    const Json angle = described(number(ranges::spot_degrees), "Of the whole cone [degrees]; 45 by default");
+    const Json penumbra =
+        described(reference("fraction"), "Share of the half angle over which it falls off to nothing; .1 by default");
+    const Json distance = described(reference("not_negative"),
+                                    "That its light has come through the constant density; scene units; 0 by default");
     const Json kinds = Json::array(
-        {object_of({{"type", {{"const", "point"}}}, {"position", position}, {"intensity", intensity}, {"radius", radius}},
+        {object_of({{"type", type_of_point}, {"position", position}, {"intensity", radiant}, {"radius", radius}},
                    {"type", "position", "intensity"}),
-         object_of({{"type", {{"const", "spot"}}},
+         object_of({{"type", type_of_spot},
                     {"position", position},
                     {"direction", direction},
-                    {"intensity", intensity},
+                    {"intensity", radiant},
                     {"radius", radius},
-                    {"angle", angle}},
+                    {"angle", angle},
+                    {"penumbra", penumbra}},
                    {"type", "position", "direction", "intensity"}),
-         object_of({{"type", {{"const", "directional"}}}, {"direction", direction}, {"intensity", intensity}},
+         object_of({{"type", type_of_sun}, {"direction", direction}, {"intensity", irradiance}, {"distance", distance}},
                    {"type", "direction", "intensity"})});
-    return {{"type", "array"}, {"description", "No effect of this version reads them"}, {"items", {{"oneOf", kinds}}}};
+    return {{"type", "array"}, {"maxItems", BRUME_MAX_LIGHTS}, {"items", {{"oneOf", kinds}}}};
+}
+
+Json environment()
+{
+    Json counts = Json::array();
+    for (size_t order = 1; order <= 6; ++order)
+        counts.push_back(array_of(array_of(constant(ranges::any), 3), order * order));
+    const Json coefficients{{"anyOf", counts},
+                            {"description", "RGB of real spherical harmonics in world axes: l = 0, 1, ..., m = -l to l"}};
+    const Json file = described({{"type", "string"}}, "Lat-long image, relative to the scene file");
+    const Json up{{"enum", {"y", "z"}}, {"description", "World axis of the image's top; y by default"}};
+    return {{"description", "Distant light from all around"},
+            {"oneOf",
+             Json::array({object_of({{"sh", coefficients}}, {"sh"}), object_of({{"file", file}, {"up", up}}, {"file"})})}};
 }
 
 Json parameter_schema(const Parameter &parameter)
@@ -182,6 +221,7 @@ std::string scene_schema(const EffectRegistry &effects)
                    {"camera", camera()},
                    {"medium", medium()},
                    {"lights", lights()},
+                   {"environment", environment()},
                    {"effects", effects_schema(effects)}},
                   {"brume"});
     schema["$defs"] = definitions();

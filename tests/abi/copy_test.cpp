@@ -141,8 +141,8 @@ TEST_P(Copies, ExtraOutputsOfNothing)
         paint_depth(depth);
         const brume_image transmittance_image = transmittance.image(), scattered_image = scattered.image();
         ASSERT_EQ(execute(plan.get(), color, depth, output,
-                          {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &transmittance_image},
-                           {sizeof(brume_extra_output), BRUME_OUTPUT_SCATTERED, &scattered_image}}),
+                          {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &transmittance_image),
+                           extra_output(BRUME_OUTPUT_SCATTERED, &scattered_image)}),
                   BRUME_OK)
             << message(context.get());
         expect_same_bits(color, output);

@@ -88,6 +88,14 @@ TEST(Hpp, SetsAScene)
     scene.set("multiscatter", "kernel_size", "6x6");
     scene.set("multiscatter", "masking", false);
     EXPECT_FALSE(brume::Plan(scene, brume::format(32, 32)).info().does_nothing);
+    scene.set_medium(medium, std::vector<brume_gaussian>(3, brume_gaussian BRUME_GAUSSIAN_INIT));
+    EXPECT_THROW(scene.set_medium(medium, std::vector<brume_gaussian>(3)), brume::Error);
+    scene.set_lights(std::vector<brume_light>(2, brume_light BRUME_LIGHT_INIT));
+    scene.set_lights({});
+    scene.set_environment({{1, 1, 1}});
+    scene.set_environment({});
+    EXPECT_THROW(scene.set_environment({{1, 1, 1}, {1, 1, 1}}), brume::Error);
+    EXPECT_EQ(scene.environment_file(), "");
     scene.remove_medium();
     EXPECT_TRUE(brume::Plan(scene, brume::format(32, 32)).info().does_nothing);
 }

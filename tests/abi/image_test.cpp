@@ -214,8 +214,7 @@ TEST_P(Images, ExtraOutputsShareNoMemory)
     const auto with = [&](const Picture &transmittance, const Picture &blur_radius) {
         const brume_image a = transmittance.image(), b = blur_radius.image();
         return execute(with_outputs.get(), color, depth, output,
-                       {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &a},
-                        {sizeof(brume_extra_output), BRUME_OUTPUT_BLUR_RADIUS, &b}});
+                       {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &a), extra_output(BRUME_OUTPUT_BLUR_RADIUS, &b)});
     };
     EXPECT_EQ(with(extra, radius), BRUME_OK) << message(context.get());
     expect_status(context.get(), with(color, radius), BRUME_ERROR_ARGUMENT, "extra[0]");
@@ -224,11 +223,11 @@ TEST_P(Images, ExtraOutputsShareNoMemory)
     brume_image within = radius.image();
     within.data = extra.image().data;
     const brume_image whole = extra.image();
-    expect_status(context.get(),
-                  execute(with_outputs.get(), color, depth, output,
-                          {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &whole},
-                           {sizeof(brume_extra_output), BRUME_OUTPUT_BLUR_RADIUS, &within}}),
-                  BRUME_ERROR_ARGUMENT, "extra[1]");
+    expect_status(
+        context.get(),
+        execute(with_outputs.get(), color, depth, output,
+                {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &whole), extra_output(BRUME_OUTPUT_BLUR_RADIUS, &within)}),
+        BRUME_ERROR_ARGUMENT, "extra[1]");
 }
 
 TEST_P(Images, OddSizes)

@@ -61,6 +61,25 @@ FIELD(brume_density_term, falloff, 16, 8);
 FIELD(brume_density_term, direction, 24, 24);
 FIELD(brume_density_term, origin, 48, 24);
 
+SIZE(brume_gaussian, 72);
+FIELD(brume_gaussian, struct_size, 0, 4);
+FIELD(brume_gaussian, reserved, 4, 4);
+FIELD(brume_gaussian, center, 8, 24);
+FIELD(brume_gaussian, scale, 32, 8);
+FIELD(brume_gaussian, amplitude, 40, 8);
+FIELD(brume_gaussian, colour, 48, 24);
+
+SIZE(brume_light, 112);
+FIELD(brume_light, struct_size, 0, 4);
+FIELD(brume_light, type, 4, 4);
+FIELD(brume_light, position, 8, 24);
+FIELD(brume_light, direction, 32, 24);
+FIELD(brume_light, intensity, 56, 24);
+FIELD(brume_light, radius, 80, 8);
+FIELD(brume_light, angle, 88, 8);
+FIELD(brume_light, penumbra, 96, 8);
+FIELD(brume_light, distance, 104, 8);
+
 SIZE(brume_medium, 128);
 FIELD(brume_medium, struct_size, 0, 4);
 FIELD(brume_medium, term_count, 4, 4);
@@ -71,6 +90,9 @@ FIELD(brume_medium, g, 80, 8);
 FIELD(brume_medium, visibility, 88, 8);
 FIELD(brume_medium, droplet_diameter, 96, 8);
 FIELD(brume_medium, terms, 104, 8);
+FIELD(brume_medium, gaussians, 112, 8);
+FIELD(brume_medium, gaussian_count, 120, 4);
+FIELD(brume_medium, reserved, 124, 4);
 
 SIZE(brume_camera, 168);
 FIELD(brume_camera, struct_size, 0, 4);
@@ -134,6 +156,8 @@ SIZE(brume_extra_output, 24);
 FIELD(brume_extra_output, struct_size, 0, 4);
 FIELD(brume_extra_output, output, 4, 4);
 FIELD(brume_extra_output, image, 8, 8);
+FIELD(brume_extra_output, light, 16, 4);
+FIELD(brume_extra_output, reserved, 20, 4);
 
 SIZE(brume_frame, 56);
 FIELD(brume_frame, struct_size, 0, 4);
@@ -156,6 +180,8 @@ void brume_test_initialisers(void)
   brume_effect_info effect_info = BRUME_EFFECT_INFO_INIT;
   brume_parameter_info parameter_info = BRUME_PARAMETER_INFO_INIT;
   brume_density_term density_term = BRUME_DENSITY_TERM_INIT;
+  brume_gaussian gaussian = BRUME_GAUSSIAN_INIT;
+  brume_light light = BRUME_LIGHT_INIT;
   brume_medium medium = BRUME_MEDIUM_INIT;
   brume_camera camera = BRUME_CAMERA_INIT;
   brume_format format = BRUME_FORMAT_INIT;
@@ -166,4 +192,5 @@ void brume_test_initialisers(void)
   brume_frame frame = BRUME_FRAME_INIT;
   (void)context_desc, (void)context_info, (void)effect_info, (void)parameter_info, (void)density_term, (void)medium;
   (void)camera, (void)format, (void)plan_info, (void)plan_entry, (void)image, (void)extra_output, (void)frame;
+  (void)gaussian, (void)light;
 }

@@ -118,7 +118,7 @@ TEST_P(Outputs, ExtraOutputsAreWhatTheySay)
     const brume_image images[] = {transmittance.image(), tau.image(), scattered.image(), radius.image()};
     std::vector<brume_extra_output> extra;
     for (uint32_t i = 0; i < 4; ++i)
-        extra.push_back({sizeof(brume_extra_output), 1u << i, &images[i]});
+        extra.push_back(extra_output(1u << i, &images[i]));
     ASSERT_EQ(execute(plan.get(), color, depth, output, extra), BRUME_OK) << message(context.get());
     const double sigma_t[] = {0.012, 0.021, 0.03};
     for (int y = 0; y < height; ++y)
@@ -151,8 +151,8 @@ TEST_P(Outputs, ExtraOutputsInAnyLayout)
         std::pair<Picture, Picture> pictures{Picture(width, height, layout), Picture(width, height, scalar)};
         const brume_image transmittance = pictures.first.image(), radius = pictures.second.image();
         EXPECT_EQ(execute(plan.get(), color, depth, output,
-                          {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &transmittance},
-                           {sizeof(brume_extra_output), BRUME_OUTPUT_BLUR_RADIUS, &radius}}),
+                          {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &transmittance),
+                           extra_output(BRUME_OUTPUT_BLUR_RADIUS, &radius)}),
                   BRUME_OK)
             << message(context.get());
         EXPECT_TRUE(pictures.first.guards_untouched() && pictures.second.guards_untouched());

@@ -200,17 +200,14 @@ TEST_P(Plans, ImagesMustFit)
     expect_status(context.get(), execute(plan.get(), color, depth, flipped), BRUME_ERROR_ARGUMENT, "output.origin");
 
     const brume_image wide_image = wide.image(), good = wide.image();
-    expect_status(
-        context.get(),
-        execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &wide_image}}),
-        BRUME_ERROR_FORMAT, "extra[0]");
     expect_status(context.get(),
-                  execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_SCATTERED, &good}}),
+                  execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &wide_image)}),
+                  BRUME_ERROR_FORMAT, "extra[0]");
+    expect_status(context.get(), execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_SCATTERED, &good)}),
                   BRUME_ERROR_ARGUMENT, "extra[0].output");
-    expect_status(
-        context.get(),
-        execute(plan.get(), color, depth, output, {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, nullptr}}),
-        BRUME_ERROR_ARGUMENT, "extra[0].image");
+    expect_status(context.get(),
+                  execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_TRANSMITTANCE, nullptr)}),
+                  BRUME_ERROR_ARGUMENT, "extra[0].image");
 
     // A new plan for the new format is all that it takes.
     Plan again = make_plan(context, scene, ray_format(17, 12));
@@ -300,8 +297,7 @@ TEST_P(Plans, MemoryDoesNotGrowOnceWarm)
     for (int made = 0; made < 5; ++made) {
         Plan plan = make_plan(context, scene, ray_format(96, 64, BRUME_OUTPUT_TRANSMITTANCE));
         for (int frame = 0; frame < 20; ++frame) {
-            ASSERT_EQ(execute(plan.get(), color, depth, output,
-                              {{sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &extra_image}}),
+            ASSERT_EQ(execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &extra_image)}),
                       BRUME_OK)
                 << message(context.get());
             if (made == 0 && frame == 1)

@@ -91,6 +91,108 @@ TEST_F(SceneCalls, MediumTakesSixteenExponentialTerms)
     refused(brume_scene_set_medium(scene.get(), &medium), "terms");
 }
 
+TEST_F(SceneCalls, GaussiansRefuseNonsense)
+{
+    struct Case {
+        std::function<void(brume_medium &, brume_gaussian &)> change;
+        const char *named;
+    };
+    const Case cases[] = {
+        {[](auto &m, auto &) { m.gaussians = nullptr; }, "gaussians: NULL"},
+        {[](auto &m, auto &) { m.gaussian_count = BRUME_MAX_GAUSSIANS + 1; }, "gaussian_count: 1000001"},
+        {[](auto &, auto &g) { g.center[2] = NAN; }, "gaussians[1].center[2]: nan"},
+        {[](auto &, auto &g) { g.scale = 0; }, "gaussians[1].scale: 0"},
+        {[](auto &, auto &g) { g.amplitude = -1; }, "gaussians[1].amplitude: -1"},
+        {[](auto &, auto &g) { g.amplitude = INFINITY; }, "gaussians[1].amplitude: inf"},
+        {[](auto &, auto &g) { g.colour[1] = 1.5; }, "gaussians[1].colour[1]: 1.5"},
+        {[](auto &, auto &g) { g.struct_size = 0; }, "gaussians[1].struct_size: 0"},
+    };
+    for (const Case &c : cases) {
+        brume_medium medium = BRUME_MEDIUM_INIT;
+        brume_gaussian gaussians[] = {BRUME_GAUSSIAN_INIT, BRUME_GAUSSIAN_INIT};
+        medium.gaussian_count = 2;
+        medium.gaussians = gaussians;
+        EXPECT_EQ(brume_scene_set_medium(scene.get(), &medium), BRUME_OK) << message(context.get());
+        c.change(medium, gaussians[1]);
+        refused(brume_scene_set_medium(scene.get(), &medium), c.named);
+    }
+}
+
+TEST_F(SceneCalls, LightsRefuseNonsense)
+{
+    struct Case {
+        uint32_t type;
+        std::function<void(brume_light &)> change;
+        const char *named;  // nullptr: not looked at by this type
+    };
+    const Case cases[] = {
+        {BRUME_LIGHT_POINT, [](auto &l) { l.type = 3; }, "lights[1].type: 3"},
+        {BRUME_LIGHT_POINT, [](auto &l) { l.position[0] = NAN; }, "lights[1].position[0]"},
+        {BRUME_LIGHT_POINT, [](auto &l) { l.intensity[2] = -1; }, "lights[1].intensity[2]: -1"},
+        {BRUME_LIGHT_POINT, [](auto &l) { l.radius = -1; }, "lights[1].radius: -1"},
+        {BRUME_LIGHT_POINT, [](auto &l) { l.direction[2] = l.angle = l.distance = NAN; }, nullptr},
+        {BRUME_LIGHT_SPOT, [](auto &l) { l.direction[2] = 0; }, "lights[1].direction: (0, 0, 0)"},
+        {BRUME_LIGHT_SPOT, [](auto &l) { l.angle = 3.2; }, "lights[1].angle: 3.2"},
+        {BRUME_LIGHT_SPOT, [](auto &l) { l.penumbra = 1.01; }, "lights[1].penumbra: 1.01"},
+        {BRUME_LIGHT_SPOT, [](auto &l) { l.distance = NAN; }, nullptr},
+        {BRUME_LIGHT_DIRECTIONAL, [](auto &l) { l.direction[0] = INFINITY; }, "lights[1].direction[0]"},
+        {BRUME_LIGHT_DIRECTIONAL, [](auto &l) { l.distance = -1; }, "lights[1].distance: -1"},
+        {BRUME_LIGHT_DIRECTIONAL, [](auto &l) { l.position[0] = l.radius = l.penumbra = NAN; }, nullptr},
+    };
+    for (const Case &c : cases) {
+        brume_light lights[] = {BRUME_LIGHT_INIT, BRUME_LIGHT_INIT};
+        lights[1].type = c.type;
+        EXPECT_EQ(brume_scene_set_lights(scene.get(), lights, 2), BRUME_OK) << message(context.get());
+        c.change(lights[1]);
+        if (c.named)
+            refused(brume_scene_set_lights(scene.get(), lights, 2), c.named);
+        else
+            EXPECT_EQ(brume_scene_set_lights(scene.get(), lights, 2), BRUME_OK) << message(context.get());
+    }
+    brume_light light = BRUME_LIGHT_INIT;
+    refused(brume_scene_set_lights(scene.get(), nullptr, 1), "lights: NULL");
+    refused(brume_scene_set_lights(scene.get(), &light, BRUME_MAX_LIGHTS + 1), "count: 4097");
+    EXPECT_EQ(brume_scene_set_lights(scene.get(), nullptr, 0), BRUME_OK);
+    EXPECT_EQ(brume_scene_set_lights(nullptr, nullptr, 0), BRUME_ERROR_ARGUMENT);
+}
+
+TEST_F(SceneCalls, EnvironmentRefusesNonsense)
+{
+    std::vector<double> values(3 * 36, -0.5);
+    for (uint32_t count : {0u, 1u, 4u, 9u, 16u, 25u, 36u})
+        EXPECT_EQ(brume_scene_set_environment(scene.get(), values.data(), count), BRUME_OK) << message(context.get());
+    for (uint32_t count : {2u, 35u, 49u, UINT32_MAX})
+        refused(brume_scene_set_environment(scene.get(), values.data(), count), "count: " + std::to_string(count));
+    refused(brume_scene_set_environment(scene.get(), nullptr, 1), "coefficients: NULL");
+    values[5] = NAN;
+    refused(brume_scene_set_environment(scene.get(), values.data(), 4), "environment[1][2]: nan");
+    EXPECT_EQ(brume_scene_set_environment(nullptr, values.data(), 0), BRUME_ERROR_ARGUMENT);
+}
+
+TEST_F(SceneCalls, EnvironmentFileIsToldUntilItIsResolved)
+{
+    const auto named = [](brume_scene of, uint32_t *up) {
+        std::string name(brume_scene_environment_file(of, up, nullptr, 0), '#');
+        brume_scene_environment_file(of, nullptr, name.data(), name.size());
+        name.pop_back();
+        return name;
+    };
+    uint32_t up = 7;
+    EXPECT_EQ(named(scene.get(), &up), "");
+    EXPECT_EQ(up, BRUME_UP_Y);
+    EXPECT_EQ(named(nullptr, &up), "");
+
+    const std::string text = R"({"brume": 1, "environment": {"file": "sky.exr", "up": "z"}})";
+    brume_scene made = nullptr;
+    ASSERT_EQ(brume_scene_create_from_text(context.get(), text.data(), text.size(), "shots/fog.json", &made), BRUME_OK);
+    const Scene owned(made);
+    EXPECT_EQ(named(made, &up), "shots/sky.exr");
+    EXPECT_EQ(up, BRUME_UP_Z);
+    const double grey[] = {1, 1, 1};
+    EXPECT_EQ(brume_scene_set_environment(made, grey, 1), BRUME_OK);
+    EXPECT_EQ(named(made, &up), "");
+}
+
 TEST_F(SceneCalls, CameraRefusesNonsense)
 {
     struct Case {

@@ -88,6 +88,14 @@ TEST_F(StructSize, OfInputs)
         medium.terms = given;
         return brume_scene_set_medium(scene.get(), &medium);
     });
+    check_sizes<brume_gaussian>(context.get(), BRUME_GAUSSIAN_INIT, [&](auto *given) {
+        brume_medium medium = BRUME_MEDIUM_INIT;
+        medium.gaussian_count = 1;
+        medium.gaussians = given;
+        return brume_scene_set_medium(scene.get(), &medium);
+    });
+    check_sizes<brume_light>(context.get(), BRUME_LIGHT_INIT,
+                             [&](auto *given) { return brume_scene_set_lights(scene.get(), given, 1); });
     check_sizes<brume_camera>(context.get(), BRUME_CAMERA_INIT,
                               [&](auto *given) { return brume_scene_set_camera(scene.get(), given); });
     check_sizes<brume_camera>(context.get(), BRUME_CAMERA_INIT, [&](auto *given) {
@@ -108,13 +116,13 @@ TEST_F(StructSize, OfInputs)
             return brume_plan_execute(plan.get(), &f);
         });
     check_sizes<brume_frame>(context.get(), frame(), [&](auto *given) { return brume_plan_execute(plan.get(), given); });
-    check_sizes<brume_extra_output>(
-        context.get(), {sizeof(brume_extra_output), BRUME_OUTPUT_TRANSMITTANCE, &transmittance_image}, [&](auto *given) {
-            brume_frame f = frame();
-            f.extra_count = 1;
-            f.extra = given;
-            return brume_plan_execute(plan.get(), &f);
-        });
+    check_sizes<brume_extra_output>(context.get(), extra_output(BRUME_OUTPUT_TRANSMITTANCE, &transmittance_image),
+                                    [&](auto *given) {
+                                        brume_frame f = frame();
+                                        f.extra_count = 1;
+                                        f.extra = given;
+                                        return brume_plan_execute(plan.get(), &f);
+                                    });
 }
 
 TEST_F(StructSize, OfResults)
@@ -182,6 +190,14 @@ TEST_F(StructSize, CutFieldsTakeTheirDefaults)
     medium.term_count = 1;
     medium.terms = &only_type;
     EXPECT_EQ(brume_scene_set_medium(scene.get(), &medium), BRUME_OK) << message(context.get());
+
+    brume_gaussian only_center = cut(brume_gaussian BRUME_GAUSSIAN_INIT, offsetof(brume_gaussian, scale));
+    medium.gaussian_count = 1;
+    medium.gaussians = &only_center;
+    EXPECT_EQ(brume_scene_set_medium(scene.get(), &medium), BRUME_OK) << message(context.get());
+    brume_light only_place = cut(brume_light BRUME_LIGHT_INIT, offsetof(brume_light, direction));
+    EXPECT_EQ(brume_scene_set_lights(scene.get(), &only_place, 1), BRUME_OK) << message(context.get());
+    EXPECT_EQ(brume_scene_set_lights(scene.get(), nullptr, 0), BRUME_OK) << message(context.get());
 
     const brume_image packed = cut(color_image, offsetof(brume_image, pixel_stride));
     brume_frame f = frame();

@@ -182,6 +182,14 @@ void paint_depth(Picture &depth)
         }
 }
 
+brume_extra_output extra_output(uint32_t output, const brume_image *image)
+{
+    brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
+    extra.output = output;
+    extra.image = image;
+    return extra;
+}
+
 brume_status execute(brume_plan plan, const Picture &color, const Picture &depth, Picture &output,
                      const std::vector<brume_extra_output> &extra)
 {

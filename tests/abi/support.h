@@ -83,6 +83,7 @@ void paint(Picture &color);
 // Ray distances from 2 to 80 m with jumps, and some sky.
 void paint_depth(Picture &depth);
 
+brume_extra_output extra_output(uint32_t output, const brume_image *image);
 brume_status execute(brume_plan plan, const Picture &color, const Picture &depth, Picture &output,
                      const std::vector<brume_extra_output> &extra = {});
 

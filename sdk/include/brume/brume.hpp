@@ -8,6 +8,9 @@
 #ifndef BRUME_BRUME_HPP
 #define BRUME_BRUME_HPP
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -37,6 +40,12 @@ template <class Copy> std::string copied_text(Copy copy)
     copy(&text[0], text.size());
     text.pop_back();
     return text;
+}
+
+// A vector's size, which brume.h bounds far below 2^32.
+template <class Value> std::uint32_t count(const std::vector<Value> &values)
+{
+    return std::uint32_t(std::min<std::size_t>(values.size(), UINT32_MAX));
 }
 
 inline void check(brume_context context, brume_status status)
@@ -130,7 +139,29 @@ public:
     const Context &context() const { return context_; }
 
     void set_medium(const brume_medium &medium) { context_.check(brume_scene_set_medium(get(), &medium)); }
+    // With these Gaussians instead of those that the medium points to.
+    void set_medium(brume_medium medium, const std::vector<brume_gaussian> &gaussians)
+    {
+        medium.gaussians = gaussians.data();
+        medium.gaussian_count = detail::count(gaussians);
+        set_medium(medium);
+    }
     void remove_medium() { context_.check(brume_scene_set_medium(get(), nullptr)); }
+    void set_lights(const std::vector<brume_light> &lights)
+    {
+        context_.check(brume_scene_set_lights(get(), lights.data(), detail::count(lights)));
+    }
+    void set_environment(const std::vector<std::array<double, 3>> &coefficients)
+    {
+        const double *first = coefficients.empty() ? nullptr : coefficients.front().data();
+        context_.check(brume_scene_set_environment(get(), first, detail::count(coefficients)));
+    }
+    // "" where the scene's text names none or its coefficients are set.
+    std::string environment_file(std::uint32_t *up = nullptr) const
+    {
+        return detail::copied_text(
+            [&](char *to, std::size_t size) { return brume_scene_environment_file(get(), up, to, size); });
+    }
     void set_camera(const brume_camera &camera) { context_.check(brume_scene_set_camera(get(), &camera)); }
     void set_metres_per_unit(double metres) { context_.check(brume_scene_set_metres_per_unit(get(), metres)); }
     void set_luminance_weights(double r, double g, double b)

@@ -202,6 +202,20 @@ typedef struct brume_density_term {
 
 #define BRUME_MAX_DENSITY_TERMS 16u /* exponential ones; constant terms are added up and do not count */
 
+/* A Gaussian density term: rho = amplitude exp(-scale^2 |x - center|^2) (Zhou et al. 2007 eq. 7). */
+typedef struct brume_gaussian {
+  uint32_t struct_size;
+  uint32_t reserved;  /* 0 */
+  double center[3];   /* b, in scene units */
+  double scale;       /* a [1/scene unit], > 0; its radius is 1/a */
+  double amplitude;   /* c, ratio to unit density, >= 0; default 1 */
+  double colour[3];   /* RGB, 0 to 1; default 1. The share of what it would scatter that it does scatter; the rest is
+                         absorbed, so that extinction does not depend on it. Read by airlight only. */
+} brume_gaussian;
+#define BRUME_GAUSSIAN_INIT {(uint32_t)sizeof(brume_gaussian), 0u, {0.0, 0.0, 0.0}, 1.0, 1.0, {1.0, 1.0, 1.0}}
+
+#define BRUME_MAX_GAUSSIANS 1000000u
+
 typedef struct brume_medium {
   uint32_t struct_size;
   uint32_t term_count;  /* 0 (default): constant density 1 */
@@ -212,12 +226,55 @@ typedef struct brume_medium {
   double visibility;    /* [m]; > 0 replaces scattering by 3.912 / visibility - absorption (Koschmieder, 2 %); default 0 */
   double droplet_diameter; /* [um] 5 to 50 replaces g by the mean cosine of Jendersie and d'Eon 2023's fit; default 0 */
   const brume_density_term *terms; /* term_count of them, each of terms[0].struct_size; they add up */
+  const brume_gaussian *gaussians; /* gaussian_count of them, each of gaussians[0].struct_size; they add to the terms */
+  uint32_t gaussian_count; /* default 0. With Gaussians and no terms there is no constant density. */
+  uint32_t reserved;       /* 0 */
 } brume_medium;
 #define BRUME_MEDIUM_INIT {(uint32_t)sizeof(brume_medium), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
-                           0.0, 0.0, 0.0, NULL}
+                           0.0, 0.0, 0.0, NULL, NULL, 0u, 0u}
 
 /* Replaces the medium; NULL takes it away. */
 BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_medium *medium);
+
+#define BRUME_LIGHT_POINT 0u       /* a sphere that shines alike in all directions */
+#define BRUME_LIGHT_SPOT 1u        /* the same within a cone */
+#define BRUME_LIGHT_DIRECTIONAL 2u /* parallel light, such as the sun's */
+
+/* A light for single scattering (effect airlight). Lights do not light surfaces: the image shows those as they are. */
+typedef struct brume_light {
+  uint32_t struct_size;
+  uint32_t type;        /* BRUME_LIGHT_... */
+  double position[3];   /* POINT, SPOT: in scene units */
+  double direction[3];  /* SPOT, DIRECTIONAL: where it shines to, of any length but 0; default (0, 0, -1) */
+  double intensity[3];  /* RGB, >= 0; default 1. POINT, SPOT: [radiance m^2]: a sphere of radius r [m] and radiance L has
+                           pi r^2 L. DIRECTIONAL: irradiance on a surface that faces it [radiance sr]. */
+  double radius;        /* POINT, SPOT: in scene units, >= 0; default 0. The airlight is bounded by it, and image pixels that
+                           show the sphere are known to be this light (docs/airlight.md). */
+  double angle;         /* SPOT: of the whole cone [rad], 0 to pi; default pi / 4 */
+  double penumbra;      /* SPOT: share of the half angle over which it falls off to nothing, 0 to 1; default .1 */
+  double distance;      /* DIRECTIONAL: length that its light has come through the constant density terms, in scene units,
+                           >= 0; default 0. These have no end, and without it would let no light in. */
+} brume_light;
+#define BRUME_LIGHT_INIT {(uint32_t)sizeof(brume_light), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 1.0, 1.0}, \
+                          0.0, 0.7853981633974483, 0.1, 0.0}
+
+#define BRUME_MAX_LIGHTS 4096u
+
+/* Replaces the lights; count 0 takes them away. */
+BRUME_API brume_status brume_scene_set_lights(brume_scene scene, const brume_light *lights, uint32_t count);
+
+/* Replaces the distant light from all around by real spherical harmonics in world axes: count is 0 (none), 1, 4, 9, 16, 25
+   or 36 RGB triples, ordered l = 0, 1, ..., m = -l to l, orthonormal, without the Condon-Shortley phase: Y_00 = .2821,
+   Y_1m = .4886 (y, z, x). */
+BRUME_API brume_status brume_scene_set_environment(brume_scene scene, const double *coefficients, uint32_t count);
+
+#define BRUME_UP_Y 0u /* the centre of a lat-long image is toward -z */
+#define BRUME_UP_Z 1u /* toward +y */
+
+/* The lat-long environment image that the scene's text names, which the library does not read; "" if none. Copied as
+   brume_message does. Its top row is toward the world axis `up` (BRUME_UP_..., may be NULL) and to the right of its centre is
+   +x. Planning such a scene fails until brume_scene_set_environment gives its coefficients. */
+BRUME_API size_t brume_scene_environment_file(brume_scene scene, uint32_t *up, char *buffer, size_t capacity);
 
 #define BRUME_CAMERA_FIELD_OF_VIEW 1u /* vertical_fov, pixel_aspect and center are given */
 #define BRUME_CAMERA_POSE 2u          /* camera_to_world is given */
@@ -273,6 +330,9 @@ BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *eff
 #define BRUME_OUTPUT_OPTICAL_DEPTH 2u /* tau, RGB; sky in a medium without end gives up to 1e30 times sigma */
 #define BRUME_OUTPUT_SCATTERED 4u     /* what was added to the attenuated image: scattered and emitted radiance, RGB */
 #define BRUME_OUTPUT_BLUR_RADIUS 8u   /* deviation of the blur of this pixel's light [px], one channel */
+#define BRUME_OUTPUT_AIRLIGHT 16u     /* radiance of the lights scattered once toward the camera, RGB */
+#define BRUME_OUTPUT_AIRLIGHT_ERROR 32u /* estimate of that radiance's error, RGB */
+#define BRUME_OUTPUT_LIGHT_AIRLIGHT 64u /* airlight of one light (brume_extra_output.light), RGB */
 
 typedef struct brume_format {
   uint32_t struct_size;
@@ -356,8 +416,10 @@ typedef struct brume_extra_output {
   uint32_t struct_size;
   uint32_t output;          /* one BRUME_OUTPUT_... flag, which the plan's format asked for */
   const brume_image *image; /* 3 or 4 channels (alpha is set to 1), 1 for BLUR_RADIUS; textures as for `output` */
+  uint32_t light;           /* LIGHT_AIRLIGHT: index of the light in the scene; may be given once for each light */
+  uint32_t reserved;        /* 0 */
 } brume_extra_output;
-#define BRUME_EXTRA_OUTPUT_INIT {(uint32_t)sizeof(brume_extra_output), 0u, NULL}
+#define BRUME_EXTRA_OUTPUT_INIT {(uint32_t)sizeof(brume_extra_output), 0u, NULL, 0u, 0u}
 
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
