@@ -1,6 +1,6 @@
 // Image reads over plain memory, the C++ counterpart of lib/fetch.glsl; included once per precision by maths_types.inc.
 
-// An image of 1 or 4 channels.
+// An image of 1, 2 or 4 channels.
 struct Texture {
     const real *data = nullptr;
     int64_t row_stride = 0;  // in reals
@@ -24,7 +24,9 @@ PURE vec4 four(const real *p)
 PURE vec4 texelFetch(sampler2D image, ivec2 texel, int /*lod*/)
 {
     const real *p = texel_at(image, texel.x, texel.y);
-    return image.channels == 4 ? four(p) : vec4(p[0], real(0), real(0), real(1));
+    if (image.channels == 4)
+        return four(p);
+    return vec4(p[0], image.channels == 2 ? p[1] : real(0), real(0), real(1));
 }
 
 // Four channels that the compiler keeps in one register, where it takes glm's vec4 apart; by reference throughout, since

@@ -32,3 +32,62 @@ PURE float density_integral(IN(Medium) medium, vec3 direction, float distance)
         p += min(exponential_density_integral(medium.terms[i], direction, distance), density_limit);
     return min(p, density_limit);
 }
+
+// An exponential term as seen from another origin.
+PURE vec4 moved_term(vec4 term, vec3 origin)
+{
+    return vec4(term.x, term.y, term.z, term.w - (term.x * origin.x + term.y * origin.y + term.z * origin.z));
+}
+
+// The constant and exponential terms at a point.
+PURE float density_at(IN(Medium) medium, vec3 point)
+{
+    float rho = medium.constant;
+    for (int i = 0; i < medium.term_count; ++i)
+        rho += exp(min(moved_term(medium.terms[i], point).w, R(69.0)));
+    return min(rho, density_limit);
+}
+
+// density_integral along a segment that begins elsewhere, without the constant terms: these have no end, and the light of a
+// directional light has come through `constant_distance` of them only.
+PURE float density_between(IN(Medium) medium, vec3 origin, vec3 direction, float distance, float constant_distance)
+{
+    float p = min(medium.constant * constant_distance, density_limit);
+    for (int i = 0; i < medium.term_count; ++i)
+        p += min(exponential_density_integral(moved_term(medium.terms[i], origin), direction, distance), density_limit);
+    return min(p, density_limit);
+}
+
+// int_0^1 s^2 e^(-q s) ds for q >= 0.
+PURE float mean_square_exponential(float q)
+{
+    if (q < R(1.0))
+        return R(1.0) / R(3.0) -
+               q * (R(0.25) - q * (R(0.1) - q * (R(1.0) / R(36.0) -
+               q * (R(1.0) / R(168.0) - q * (R(1.0) / R(960.0) - q * (R(1.0) / R(6480.0) - q / R(50400.0)))))));
+    return (R(2.0) - exp(-q) * (q * q + R(2.0) * q + R(2.0))) / q / q / q;
+}
+
+// int_0^1 (1 - s)^2 e^(-q s) ds for q >= 0.
+PURE float mean_square_to_end(float q)
+{
+    if (q < R(1.0))
+        return R(1.0) / R(3.0) -
+               q * (R(1.0) / R(12.0) - q * (R(1.0) / R(60.0) - q * (R(1.0) / R(360.0) -
+               q * (R(1.0) / R(2520.0) - q * (R(1.0) / R(20160.0) - q * (R(1.0) / R(181440.0) - q / R(1814400.0)))))));
+    return (R(1.0) - R(2.0) / q + R(2.0) * (R(1.0) - exp(-q)) / q / q) / q;
+}
+
+// int_0^D rho (1 - t/D)^2 dt of the constant and exponential terms: how far from the object the medium sits.
+PURE float density_moment(IN(Medium) medium, vec3 direction, float distance)
+{
+    float m = min(medium.constant * distance / R(3.0), density_limit);
+    for (int i = 0; i < medium.term_count; ++i) {
+        vec4 term = medium.terms[i];
+        float q = distance * dot(vec3(term.x, term.y, term.z), direction);
+        float peak = min(term.w + max(-q, R(0.0)), R(80.0));
+        float mean = q >= R(0.0) ? mean_square_to_end(q) : mean_square_exponential(-q);
+        m += min(distance * mean * exp(peak), density_limit);
+    }
+    return min(m, density_limit);
+}
