@@ -26,7 +26,8 @@ endfunction()
 # An effect: a module in lib/brume/ that sees the public headers only.
 function(brume_add_effect name)
   add_library(${name} MODULE ${ARGN})
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/sdk/include ${PROJECT_SOURCE_DIR}/shaders)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/sdk/include ${PROJECT_SOURCE_DIR}/shaders
+                             ${PROJECT_SOURCE_DIR}/plugins)
   # Template statics of the standard library would otherwise be unique symbols, which keep a plugin from unloading.
   target_link_options(${name} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/effect.map)
   set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/brume

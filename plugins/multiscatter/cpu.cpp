@@ -1,10 +1,12 @@
 // Kernel `paper` on the CPU: loops over rows around the functions of shaders/lib/multiscatter.glsl.
+#include "common/pixels.hpp"
 #include "state.h"
 
 namespace multiscatter {
 namespace {
 
 using namespace brume::maths_float;
+using namespace brume_pixels;
 
 // All that the passes of one frame share.
 struct Frame {
@@ -15,7 +17,7 @@ struct Frame {
     Camera camera;
     Filter filter;
     float output_limit;
-    brume_plugin_pixels color{}, depth{}, output{}, radiance{}, radiance_stack{}, spread_stack{}, separated{},
+    brume_plugin_pixels color{}, depth{}, gaussian_density{}, lights{}, output{}, radiance{}, radiance_stack{}, spread_stack{}, separated{},
         separated_stack{}, transmittance{}, optical_depth{}, scattered{}, blur_radius{};
 
     // Maps an image that may be NULL.
@@ -25,56 +27,19 @@ struct Frame {
     }
 };
 
-Texture sampler(const brume_plugin_pixels &p)
+Pixel pixel_at(const Frame &frame, int x, int y)
 {
-    return {p.data, p.row_stride, p.width, p.height, p.channels};
-}
-
-float *at(const brume_plugin_pixels &p, int x, int y)
-{
-    return p.data + y * p.row_stride + int64_t(x) * p.channels;
-}
-
-vec4 load(const brume_plugin_pixels &p, int x, int y)
-{
-    const float *v = at(p, x, y);
-    return vec4(v[0], v[1], v[2], v[3]);
-}
-
-void store(const brume_plugin_pixels &p, int x, int y, vec4 value)
-{
-    float *v = at(p, x, y);
-    v[0] = value.x;
-    v[1] = value.y;
-    v[2] = value.z;
-    v[3] = value.w;
-}
-
-template <class Function> brume_status for_rows(Frame &frame, const char *name, int count, int grain, Function function)
-{
-    struct Call {
-        Function &function;
-    } call{function};
-    return frame.services.rows(
-        frame.host, name, count, grain,
-        [](void *user, int32_t first, int32_t last) {
-            for (int32_t y = first; y < last; ++y)
-                static_cast<Call *>(user)->function(y);
-            return brume_status(BRUME_OK);
-        },
-        &call);
-}
-
-vec2 pixel_centre(int x, int y)
-{
-    return vec2(float(x) + 0.5f, float(y) + 0.5f);
+    float gaussians = frame.gaussian_density.data ? *at(frame.gaussian_density, x, y) : 0.0f;
+    return pixel_in_medium(frame.medium, frame.camera, pixel_centre(x, y), *at(frame.depth, x, y), gaussians);
 }
 
 brume_status scatter(Frame &frame)
 {
-    return for_rows(frame, "scatter", frame.state.height, 8, [&](int y) {
+    return for_rows(frame.services, frame.host, "scatter", frame.state.height, 8, [&](int y) {
         for (int x = 0; x < frame.state.width; ++x) {
-            Pixel pixel = pixel_in_medium(frame.medium, frame.camera, pixel_centre(x, y), *at(frame.depth, x, y));
+            Pixel pixel = pixel_at(frame, x, y);
+            pixel.share = share_beside_lights(texture_of(frame.lights), frame.filter.lights, frame.medium, frame.camera,
+                                              pixel_centre(x, y), *at(frame.depth, x, y), pixel);
             Sources s = scattered_sources(frame.medium, frame.filter, pixel, vec3(load(frame.color, x, y)));
             store(frame.radiance, x, y, s.spread);
             if (frame.separated.data)
@@ -90,9 +55,9 @@ template <int taps> void downsample_row(const Frame &frame, int level, int y)
     ivec2 size = level_size(base, level), finer_size = level_size(base, level - 1);
     int row = level_row(base, level), finer_row = level == 1 ? 0 : level_row(base, level - 1);
     const Filter &f = frame.filter;
-    Texture radiance = sampler(level == 1 ? frame.radiance : frame.radiance_stack);
-    Texture separated = sampler(level == 1 ? frame.separated : frame.separated_stack);
-    Texture spread = sampler(level == 1 ? frame.radiance : frame.spread_stack);
+    Texture radiance = texture_of(level == 1 ? frame.radiance : frame.radiance_stack);
+    Texture separated = texture_of(level == 1 ? frame.separated : frame.separated_stack);
+    Texture spread = texture_of(level == 1 ? frame.radiance : frame.spread_stack);
     for (int x = 0; x < size.x; ++x) {
         ivec2 texel(x, y);
         store(
@@ -114,7 +79,7 @@ brume_status downsample(Frame &frame)
                                                   : downsample_row<6>;
     for (int level = 1; level <= frame.filter.top; ++level) {
         int height = level_size({frame.state.width, frame.state.height}, level).y;
-        brume_status s = for_rows(frame, "downsample", height, 8, [&](int y) { row(frame, level, y); });
+        brume_status s = for_rows(frame.services, frame.host, "downsample", height, 8, [&](int y) { row(frame, level, y); });
         if (s)
             return s;
     }
@@ -124,14 +89,14 @@ brume_status downsample(Frame &frame)
 brume_status compose(Frame &frame)
 {
     Pyramid pyramid{ivec2(frame.state.width, frame.state.height), frame.state.radiance ? frame.filter.top : 0};
-    Texture radiance = sampler(frame.radiance), stack = sampler(frame.radiance_stack);
-    Texture spread_stack = sampler(frame.spread_stack);
-    Texture separated = sampler(frame.separated), separated_stack = sampler(frame.separated_stack);
-    return for_rows(frame, "compose", frame.state.height, 8, [&](int y) {
+    Texture radiance = texture_of(frame.radiance), stack = texture_of(frame.radiance_stack);
+    Texture spread_stack = texture_of(frame.spread_stack);
+    Texture separated = texture_of(frame.separated), separated_stack = texture_of(frame.separated_stack);
+    return for_rows(frame.services, frame.host, "compose", frame.state.height, 8, [&](int y) {
         for (int x = 0; x < frame.state.width; ++x) {
             vec2 centre = pixel_centre(x, y);
             vec4 color = load(frame.color, x, y);
-            Pixel pixel = pixel_in_medium(frame.medium, frame.camera, centre, *at(frame.depth, x, y));
+            Pixel pixel = pixel_at(frame, x, y);
             vec3 added = pixel.emitted;
             if (pyramid.top > 0)
                 added += gathered(radiance, stack, spread_stack, separated, separated_stack, pyramid, frame.filter, centre,
@@ -166,6 +131,8 @@ brume_status execute_cpu(const brume_services &services, brume_host host, const 
     const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
         {frame.color, &f.color},
         {frame.depth, &f.depth},
+        {frame.gaussian_density, &f.gaussian_density},
+        {frame.lights, &f.lights},
         {frame.output, &f.output},
         {state.radiance, &f.radiance},
         {state.radiance_stack, &f.radiance_stack},

@@ -143,7 +143,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     bool scatters = any(m.scattering);
     bool absorbs = any(m.absorption);
     bool emits = any(m.emission);
-    bool dense = m.constant > 0 || m.term_count > 0;
+    bool dense = m.constant > 0 || m.term_count > 0 || request_.scene->gaussian_count > 0;
     if (!request_.scene->has_medium)
         return drop("multiscatter", "the scene has no medium");
     if (!dense || !(scatters || absorbs || emits)) {
@@ -155,6 +155,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->parameters = read_parameters(request_.parameters);
     state->width = request_.width;
     state->height = request_.height;
+    state->beside_lights = request_.lights_scatter != 0;
     brume_status s = dense ? need_camera(scatters) : BRUME_OK;
     if (s)
         return s;
@@ -213,8 +214,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
                                      100,
                                      BRUME_THREADS_SAFE,
                                      BRUME_WANTED_WITH_MEDIUM,
-                                     BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED |
-                                         BRUME_OUTPUT_BLUR_RADIUS,
+                                     own_outputs,
                                      1,
                                      uint32_t(parameter_table().size()),
                                      parameter_table().data(),

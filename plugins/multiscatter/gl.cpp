@@ -31,6 +31,7 @@ std::vector<brume_plugin_uniform> filter_uniforms(const Filter &f)
             integer("multiscatter.masking", f.masking),
             integer("multiscatter.density_blurring", f.density_blurring),
             integer("multiscatter.separation", f.separation),
+            integer("multiscatter.lights", f.lights),
             real("multiscatter.scale", f.scale),
             real("multiscatter.mask_width", f.mask_width),
             real("multiscatter.bright", f.bright),
@@ -76,6 +77,8 @@ private:
         return run("scatter", state_.scatter,
                    {{"color", frame_.color, BRUME_ACCESS_FETCH, 0},
                     {"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
+                    {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
+                    {"lights", frame_.lights, BRUME_ACCESS_FETCH, 0},
                     {"radiance", state_.radiance, BRUME_ACCESS_WRITE, 0},
                     {"separated", state_.separated, BRUME_ACCESS_WRITE, 0}},
                    {}, {state_.width, state_.height});
@@ -108,6 +111,7 @@ private:
         return run("compose", state_.compose,
                    {{"color", frame_.color, BRUME_ACCESS_FETCH, 0},
                     {"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
+                    {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
                     {"radiance", state_.radiance, BRUME_ACCESS_LINEAR, 0},
                     {"radiance_stack", state_.radiance_stack, BRUME_ACCESS_LINEAR, 0},
                     {"spread_stack", state_.spread_stack, BRUME_ACCESS_LINEAR, 0},
@@ -149,7 +153,7 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
                         state.downsample))
             return s;
     }
-    return compile("multiscatter_compose.comp", define("PYRAMID", state.top > 0) + define("OUTPUTS", outputs),
+    return compile("multiscatter_compose.comp", define("PYRAMID", state.top > 0) + define("OUTPUTS", outputs & own_outputs),
                    state.compose);
 }
 

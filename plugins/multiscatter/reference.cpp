@@ -14,28 +14,6 @@ namespace {
 
 using namespace brume::maths_double;
 
-Medium wide(const brume::maths_float::Medium &m)
-{
-    Medium medium{};
-    medium.scattering = m.scattering;
-    medium.absorption = m.absorption;
-    medium.emission = m.emission;
-    medium.luminance = m.luminance;
-    medium.asymmetry = m.asymmetry;
-    medium.constant = m.constant;
-    medium.term_count = m.term_count;
-    for (int i = 0; i < m.term_count; ++i)
-        medium.terms[i] = m.terms[i];
-    return medium;
-}
-
-Camera wide(const brume::maths_float::Camera &c)
-{
-    return Camera{c.focal,       c.tangent_scale, c.center,       c.depth_kind,     c.sky,
-                  c.depth_range, c.far_distance,  c.sky_distance, c.metres_per_unit,
-                  c.nonpositive};
-}
-
 // Integral of the unit Gaussian around the centre of pixel `from` over pixel `to`.
 double pixel_share(int from, int to, double deviation)
 {
@@ -56,7 +34,9 @@ struct Job {
     Medium medium;
     Camera camera;
     double output_limit;
-    brume_plugin_pixels color{}, depth{}, output{}, transmittance{}, optical_depth{}, scattered{}, blur_radius{};
+    brume_plugin_pixels color{}, depth{}, gaussian_density{}, output{}, transmittance{}, optical_depth{}, scattered{}, blur_radius{};
+    Data lights;
+    int light_count = 0;
     std::vector<vec4> sources{};  // RGB: L_sc, A: W
 };
 
@@ -66,10 +46,16 @@ vec3 color_at(const Job &job, int x, int y)
     return vec3(v[0], v[1], v[2]);
 }
 
+double depth_at(const Job &job, int x, int y)
+{
+    return job.depth.data[y * job.depth.row_stride + x];
+}
+
 Pixel pixel_at(const Job &job, int x, int y)
 {
-    float raw = job.depth.data[y * job.depth.row_stride + x];
-    return pixel_in_medium(job.medium, job.camera, vec2(x + 0.5, y + 0.5), raw);
+    const brume_plugin_pixels &g = job.gaussian_density;
+    double gaussians = g.data ? g.data[y * g.row_stride + int64_t(x) * g.channels] : 0.0f;
+    return pixel_in_medium(job.medium, job.camera, vec2(x + 0.5, y + 0.5), depth_at(job, x, y), gaussians);
 }
 
 void store(const brume_plugin_pixels &p, int x, int y, vec3 v, double alpha)
@@ -90,6 +76,9 @@ void find_sources(Job &job, int first, int last)
     for (int y = first; y < last; ++y)
         for (int x = 0; x < job.state.width; ++x) {
             Pixel pixel = pixel_at(job, x, y);
+            if (job.state.beside_lights)
+                pixel.share = share_beside_lights(job.lights.texture(), job.light_count, job.medium, job.camera,
+                                                  vec2(x + 0.5, y + 0.5), depth_at(job, x, y), pixel);
             job.sources[size_t(y) * size_t(job.state.width) + size_t(x)] =
                 vec4(pixel.share * finite_or_zero(color_at(job, x, y)), pixel.spread);
         }
@@ -137,10 +126,16 @@ void splat_rows(const Job &job, int first, int last)
 brume_status execute_reference(const brume_services &services, brume_host host, const State &state,
                                const brume_plugin_frame &frame)
 {
-    Job job{state, wide(medium_of(*frame.scene)), wide(camera_of(*frame.scene)), frame.scene->output_limit};
+    Job job{.state = state,
+            .medium = medium_of(*frame.scene),
+            .camera = camera_of(*frame.scene),
+            .output_limit = frame.scene->output_limit,
+            .lights = lights_of(*frame.scene),
+            .light_count = int(frame.scene->light_count)};
     const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
         {frame.color, &job.color},
         {frame.depth, &job.depth},
+        {frame.gaussian_density, &job.gaussian_density},
         {frame.output, &job.output},
         {frame.transmittance, &job.transmittance},
         {frame.optical_depth, &job.optical_depth},

@@ -4,6 +4,7 @@
 #include <brume/brume_plugin.h>
 
 #include "parameters.h"
+#include "scene_maths.hpp"
 
 namespace multiscatter {
 
@@ -13,6 +14,7 @@ struct State {
     int width = 0;
     int height = 0;
     int top = 0;            // K; 0: no pyramid
+    bool beside_lights = false;  // another effect adds what the lights scatter once
 
     // Level 0 of a pyramid and, stacked, its levels 1 to K.
     brume_plugin_image radiance = nullptr;  // RGB: L_sc, A: W
@@ -37,9 +39,9 @@ brume_status execute_reference(const brume_services &services, brume_host host, 
 
 brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state);
 
-// The scene as the maths' types.
-brume::maths_float::Medium medium_of(const brume_plugin_scene &scene);
-brume::maths_float::Camera camera_of(const brume_plugin_scene &scene);
+// What of BRUME_OUTPUT_... this effect fills.
+constexpr uint32_t own_outputs =
+    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS;
 
 // The filter of one frame: its K is the plan's, or the level of the widest blur that the frame's medium and camera allow.
 brume::maths_float::Filter filter_of(const State &state, const brume_plugin_scene &scene);

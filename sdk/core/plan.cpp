@@ -1,6 +1,7 @@
 #include "core/plan.h"
 
 #include <algorithm>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <map>
@@ -14,6 +15,8 @@
 using namespace brume;
 
 namespace {
+
+const std::string host_name = "brume";  // of the host's own entries
 
 // Nominal rates behind predicted_ms: one thread of a server CPU, a mid-range GPU, and Mesa's software GL. A calibration
 // per device would replace them.
@@ -32,9 +35,10 @@ Rates nominal_rates(const Backend &backend)
 
 std::string output_names(uint32_t outputs)
 {
-    const char *const names[] = {"transmittance", "optical depth", "scattered", "blur radius"};
+    const char *const names[] = {"transmittance", "optical depth",  "scattered",        "blur radius",
+                                 "airlight",      "airlight error", "airlight of a light"};
     std::string text;
-    for (uint32_t i = 0; i < 4; ++i)
+    for (uint32_t i = 0; i < std::size(names); ++i)
         if (outputs & (1u << i))
             text += (text.empty() ? "" : ", ") + std::string(names[i]);
     return text;
@@ -84,6 +88,7 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
             timer_ = context_->backend->create_timer();
         } catch (...) {
             destroy_states();
+            data_.clear();
             images_.clear();
             between_[0] = between_[1] = nullptr;
             programs_.clear();
@@ -97,6 +102,7 @@ brume_host_t::~brume_host_t()
     try {
         context_->backend->invoke([&] {
             destroy_states();
+            data_.clear();
             images_.clear();
             between_[0] = between_[1] = nullptr;
             programs_.clear();
@@ -127,14 +133,22 @@ bool brume_host_t::does_nothing() const
     return std::none_of(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
 }
 
+bool brume_host_t::lights_scatter() const
+{
+    return std::any_of(effects_.begin(), effects_.end(), [](auto &planned) {
+        return planned.effect->wanted == BRUME_WANTED_WITH_LIGHTS;
+    });
+}
+
 void brume_host_t::plan_effects()
 {
     const auto &registry = context_->effects;
     for (const EffectSettings &settings : scene_.effects)
         effects_.push_back({&registry.find(settings.name), {}, nullptr, false});
     for (const Effect &effect : registry.all()) {
+        bool lit = !scene_.lights.empty() || !scene_.environment.coefficients.empty();
         bool needed = scene_.medium && !scene_.effects_named && effect.refusal.empty() &&
-                      effect.wanted == BRUME_WANTED_WITH_MEDIUM;
+                      (effect.wanted == BRUME_WANTED_WITH_MEDIUM || (effect.wanted == BRUME_WANTED_WITH_LIGHTS && lit));
         if (needed && std::none_of(effects_.begin(), effects_.end(), [&](auto &p) { return p.effect == &effect; }))
             effects_.push_back({&effect, {}, nullptr, false});
     }
@@ -143,7 +157,7 @@ void brume_host_t::plan_effects()
     });
     if (!scene_.medium && scene_.effects.empty())
         entries_.push_back({false, "brume", "medium", "the scene has no medium: nothing to do", 0, 0, 0});
-    if (!scene_.lights.empty())
+    if (!scene_.lights.empty() && !lights_scatter())
         entries_.push_back({false, "brume", "lights",
                             std::to_string(scene_.lights.size()) + " lights: no effect of this scene reads them", 0, 0, 0});
 
@@ -162,10 +176,13 @@ void brume_host_t::plan_effects()
     scene.has_medium = scene_.medium ? 1 : 0;
     evaluate_medium(with_peak_medium(scene_), 0, view.camera_to_world, scene.medium);
     scene.output_limit = FLT_MAX;
+    plan_content(view, scene);
     uint32_t filled = 0;
+    bool attenuated = false;
     for (auto &planned : effects_) {
-        plan_effect(planned, scene);
+        plan_effect(planned, scene, attenuated);
         filled |= planned.runs ? planned.effect->table->outputs : 0;
+        attenuated = attenuated || (planned.runs && planned.effect->table->attenuates);
     }
     if (uint32_t missing = format_.outputs & ~filled)
         throw Error(BRUME_ERROR_UNSUPPORTED, "format.outputs: nothing that runs fills " + output_names(missing) +
@@ -182,7 +199,49 @@ void brume_host_t::plan_effects()
             std::max(double(entry.bytes) / rates.bytes_per_ms, double(entry.operations) / rates.operations_per_ms);
 }
 
-void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene)
+// Lights, environment and Gaussians as effects see them when planning: of Gaussians only whether there are any, since
+// their number may change with the frame.
+void brume_host_t::plan_content(const View &view, brume_plugin_scene &scene)
+{
+    if (!scene_.environment.file.empty() && scene_.environment.coefficients.empty())
+        throw Error(BRUME_ERROR_SCENE, "environment.file: " + scene_.environment.file +
+                                           " is not read by the library; expected brume_scene_set_environment to have been called");
+    for (auto &c : scene_.environment.coefficients)
+        environment_.push_back({float(c[0]), float(c[1]), float(c[2])});
+    evaluate_lights(scene_, 0, view.camera_to_world, lights_);
+    scene.lights = lights_.data();
+    scene.light_count = uint32_t(lights_.size());
+    scene.environment = environment_.empty() ? nullptr : reinterpret_cast<const float(*)[3]>(environment_.data());
+    scene.environment_count = uint32_t(environment_.size());
+    const bool any_gaussians =
+        scene_.medium && (!scene_.medium->gaussians.empty() || !scene_.medium->gaussian_sets.empty());
+    scene.gaussian_count = any_gaussians ? 1 : 0;
+    if (effects_.empty())
+        return;
+    if (any_gaussians)
+        need_camera(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE, "the medium's Gaussians are placed in the world");
+    scene_images_.plan(*this, scene, format_, context_->backend->kind());
+}
+
+void brume_host_t::evaluate_content(double frame, const View &view, brume_plugin_scene &scene)
+{
+    if (scene_.animated() && frame != content_frame_)
+        ++revision_;
+    content_frame_ = frame;
+    scene.revision = revision_;
+    evaluate_lights(scene_, frame, view.camera_to_world, lights_);
+    evaluate_gaussians(scene_, frame, view.camera_to_world, gaussians_);
+    scene.lights = lights_.data();
+    scene.light_count = uint32_t(lights_.size());
+    scene.gaussians = gaussians_.data();
+    scene.gaussian_count = uint32_t(gaussians_.size());
+    scene.environment = environment_.empty() ? nullptr : reinterpret_cast<const float(*)[3]>(environment_.data());
+    scene.environment_count = uint32_t(environment_.size());
+    for (size_t i = 0; i < 3; ++i)
+        scene.position[i] = view.camera_to_world[4 * i + 3] * scene_.metres_per_unit;
+}
+
+void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene, bool attenuated)
 {
     brume_plugin_request request{};
     request.struct_size = sizeof request;
@@ -195,6 +254,8 @@ void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene 
     request.scene = &scene;
     request.animated = scene_.animated() ? 1 : 0;
     request.pose_matters = pose_matters(scene_) ? 1 : 0;
+    request.attenuated = attenuated ? 1 : 0;
+    request.lights_scatter = lights_scatter() ? 1 : 0;
     current_ = &planned;
     failure_.clear();
     size_t first = entries_.size();
@@ -259,7 +320,16 @@ void brume_host_t::check_frame(const brume_frame &frame) const
         if (extra.output == 0 || (extra.output & (extra.output - 1)) || !(extra.output & format_.outputs))
             throw Error(BRUME_ERROR_ARGUMENT, name + ".output: " + std::to_string(extra.output) +
                                                   "; expected one of the flags in the plan's format.outputs");
-        if (seen & extra.output)
+        bool of_light = extra.output == BRUME_OUTPUT_LIGHT_AIRLIGHT;
+        if (extra.light >= (of_light ? scene_.lights.size() : 1))
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        name + ".light: " + std::to_string(extra.light) + "; expected " +
+                            (of_light ? "an index below " + std::to_string(scene_.lights.size()) : std::string("0")));
+        bool again = seen & extra.output;
+        if (of_light)
+            again = std::any_of(frame.extra, frame.extra + i,
+                                [&](auto &e) { return e.output == extra.output && e.light == extra.light; });
+        if (again)
             throw Error(BRUME_ERROR_ARGUMENT, name + ".output: given twice");
         seen |= extra.output;
         bool scalar = extra.output == BRUME_OUTPUT_BLUR_RADIUS;
@@ -294,6 +364,7 @@ void brume_host_t::execute(const brume_frame &frame)
     fill_camera(scene_, view, format_, frame.color->origin, scene.camera);
     scene.has_medium = scene_.medium ? 1 : 0;
     evaluate_medium(scene_, frame.frame, view.camera_to_world, scene.medium);
+    evaluate_content(frame.frame, view, scene);
     context_->backend->invoke([&] {
         check_frame(frame);
         scene.output_limit = context_->backend->pixel(*frame.output) == BRUME_PIXEL_F16 ? 65504.0f : FLT_MAX;
@@ -326,26 +397,17 @@ void brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scen
     seen.scene = &scene;
     seen.depth = depth.get();
     std::vector<std::shared_ptr<Image>> extras;
-    for (uint32_t i = 0; i < frame.extra_count; ++i) {
-        const auto &extra = frame.extra[i];
-        bool scalar = extra.output == BRUME_OUTPUT_BLUR_RADIUS;
-        // Effects hold only their output to the limit of halves, so halves of these are not written directly.
-        bool direct = backend.pixel(*extra.image) == BRUME_PIXEL_F32;
-        extras.push_back(backend.begin_output(*extra.image, scalar ? 1 : 4, direct));
-        seen.outputs |= extra.output;
-        brume_plugin_image *slots[] = {&seen.transmittance, &seen.optical_depth, &seen.scattered, &seen.blur_radius};
-        const uint32_t flags[] = {BRUME_OUTPUT_TRANSMITTANCE, BRUME_OUTPUT_OPTICAL_DEPTH, BRUME_OUTPUT_SCATTERED,
-                                  BRUME_OUTPUT_BLUR_RADIUS};
-        for (int k = 0; k < 4; ++k)
-            if (extra.output == flags[k])
-                *slots[k] = extras.back().get();
-    }
+    begin_extras(frame, extras, seen);
 
     std::vector<PlannedEffect *> running;
     for (auto &planned : effects_)
         if (planned.runs)
             running.push_back(&planned);
     current_scene_ = &scene;
+    current_ = nullptr;
+    failure_.clear();
+    if (brume_status status = scene_images_.execute(*this, seen))
+        throw Error(status, failure_);
     Image *input = color.get();
     for (size_t i = 0; i < running.size(); ++i) {
         seen.color = input;
@@ -373,6 +435,32 @@ void brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scen
         backend.finish_output(*frame.extra[i].image, *extras[i]);
 }
 
+void brume_host_t::begin_extras(const brume_frame &frame, std::vector<std::shared_ptr<Image>> &extras,
+                                brume_plugin_frame &seen)
+{
+    Backend &backend = *context_->backend;
+    light_airlight_.assign(lights_.size(), nullptr);
+    for (uint32_t i = 0; i < frame.extra_count; ++i) {
+        const auto &extra = frame.extra[i];
+        bool scalar = extra.output == BRUME_OUTPUT_BLUR_RADIUS;
+        // Effects hold only their output to the limit of halves, so halves of these are not written directly.
+        bool direct = backend.pixel(*extra.image) == BRUME_PIXEL_F32;
+        extras.push_back(backend.begin_output(*extra.image, scalar ? 1 : 4, direct));
+        seen.outputs |= extra.output;
+        Image *image = extras.back().get();
+        switch (extra.output) {
+        case BRUME_OUTPUT_TRANSMITTANCE: seen.transmittance = image; break;
+        case BRUME_OUTPUT_OPTICAL_DEPTH: seen.optical_depth = image; break;
+        case BRUME_OUTPUT_SCATTERED: seen.scattered = image; break;
+        case BRUME_OUTPUT_BLUR_RADIUS: seen.blur_radius = image; break;
+        case BRUME_OUTPUT_AIRLIGHT: seen.airlight = image; break;
+        case BRUME_OUTPUT_AIRLIGHT_ERROR: seen.airlight_error = image; break;
+        case BRUME_OUTPUT_LIGHT_AIRLIGHT: light_airlight_[extra.light] = image; break;
+        }
+    }
+    seen.light_airlight = light_airlight_.data();
+}
+
 std::vector<double> brume_host_t::measured_ms()
 {
     std::vector<double> result;
@@ -390,7 +478,7 @@ void brume_host_t::add_entry(const brume_plugin_entry &entry)
 {
     if (!entry.name || !entry.reason)
         throw Error(BRUME_ERROR_ARGUMENT, "add_entry: name or reason is NULL");
-    entries_.push_back({entry.runs != 0, current_ ? current_->effect->name : "", entry.name, entry.reason, entry.bytes,
+    entries_.push_back({entry.runs != 0, current_ ? current_->effect->name : host_name, entry.name, entry.reason, entry.bytes,
                         entry.operations, 0});
 }
 
@@ -422,8 +510,9 @@ brume_program brume_host_t::compile(const char *name, const char *source, const 
 
 int brume_host_t::entry_index(const char *name) const
 {
-    for (size_t i = 0; i < entries_.size() && name && current_; ++i)
-        if (entries_[i].runs && entries_[i].name == name && entries_[i].effect == current_->effect->name)
+    const std::string &owner = current_ ? current_->effect->name : host_name;
+    for (size_t i = 0; i < entries_.size() && name; ++i)
+        if (entries_[i].runs && entries_[i].name == name && entries_[i].effect == owner)
             return int(i);
     throw Error(BRUME_ERROR_PLUGIN,
                 std::string("pass \"") + (name ? name : "NULL") + "\" is not among the running entries of the plan");
@@ -441,6 +530,30 @@ brume_status brume_host_t::rows(const char *name, int32_t count, int32_t grain, 
         throw Error(BRUME_ERROR_ARGUMENT, "rows: function NULL, count below 0 or grain below 1");
     timer_->mark(entry_index(name));
     return context_->backend->rows(count, grain, function, user);
+}
+
+brume_plugin_image brume_host_t::upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels)
+{
+    const uint64_t width = BRUME_DATA_WIDTH, most = width * uint64_t(context_->backend->largest_size());
+    if (slot > 63 || (channels != 1 && channels != 4) || texels > most)
+        throw Error(BRUME_ERROR_ARGUMENT, "upload: slot " + std::to_string(slot) + ", " + std::to_string(channels) +
+                                              " channels, " + std::to_string(texels) +
+                                              " texels; expected a slot from 0 to 63, 1 or 4 channels and at most " +
+                                              std::to_string(most) + " texels");
+    Data &data = data_[{current_, slot}];
+    data.image.reset();
+    // Powers of two, so that the pool serves the next frame's slightly longer list with the same image.
+    const uint64_t rows = std::min<uint64_t>(std::bit_ceil(std::max<uint64_t>(1, (texels + width - 1) / width)),
+                                             uint64_t(context_->backend->largest_size()));
+    data.values.assign(rows * width * uint64_t(channels), 0.0f);
+    std::copy_n(values, texels * uint64_t(channels), data.values.begin());
+    brume_image image = BRUME_IMAGE_INIT;
+    image.channels = uint32_t(channels);
+    image.width = int32_t(width);
+    image.height = int32_t(rows);
+    image.data = data.values.data();
+    data.image = context_->backend->import(image, channels);
+    return data.image.get();
 }
 
 brume_plugin_pixels brume_host_t::pixels(brume_plugin_image image)

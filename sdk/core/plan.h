@@ -1,9 +1,12 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/context.h"
+#include "core/scene_images.h"
+#include "core/view.h"
 #include "core/scene.h"
 
 namespace brume {
@@ -53,12 +56,23 @@ public:
     void run(const brume_plugin_pass &pass);
     brume_status rows(const char *name, int32_t count, int32_t grain, brume_rows_function function, void *user);
     brume_plugin_pixels pixels(brume_plugin_image image);
+    brume_plugin_image upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels);
 
 private:
+    // A data image and, on the CPU, the memory that it wraps.
+    struct Data {
+        std::vector<float> values;
+        std::shared_ptr<brume::Image> image;
+    };
+
+    void plan_content(const brume::View &view, brume_plugin_scene &scene);
+    void evaluate_content(double frame, const brume::View &view, brume_plugin_scene &scene);
     void plan_effects();
     void destroy_states() noexcept;
-    void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene);
+    void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene, bool attenuated);
     void run_effects(const brume_frame &frame, const brume_plugin_scene &scene);
+    void begin_extras(const brume_frame &frame, std::vector<std::shared_ptr<brume::Image>> &extras, brume_plugin_frame &seen);
+    bool lights_scatter() const;
     void copy_frame(const brume_frame &frame);
     void check_frame(const brume_frame &frame) const;
     int entry_index(const char *name) const;
@@ -76,7 +90,15 @@ private:
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;
     uint64_t image_bytes_ = 0;
-    const brume::PlannedEffect *current_ = nullptr;  // whose callback is running
+    std::vector<brume_plugin_light> lights_;  // of the current frame
+    std::vector<brume_plugin_gaussian> gaussians_;
+    std::vector<std::array<float, 3>> environment_;
+    double content_frame_ = 0;  // that of `revision_`
+    uint64_t revision_ = 0;
+    brume::SceneImages scene_images_;
+    std::map<std::pair<const brume::PlannedEffect *, uint32_t>, Data> data_;  // by effect (the host: null) and slot
+    std::vector<brume_plugin_image> light_airlight_;
+    const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
     const brume_plugin_scene *current_scene_ = nullptr;
     std::string failure_;
 };

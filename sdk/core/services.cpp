@@ -96,6 +96,13 @@ const brume_services &services()
                 *out = host->pixels(image);
             });
         },
+        [](brume_host host, uint32_t slot, int32_t channels, const float *values, uint64_t texels, brume_plugin_image *out) {
+            return guarded(host, [&] {
+                if (!out || (!values && texels > 0))
+                    throw Error(BRUME_ERROR_ARGUMENT, "upload: values or out is NULL");
+                *out = host->upload(slot, channels, values, texels);
+            });
+        },
     };
     return table;
 }

@@ -17,6 +17,7 @@ struct Filter {
     float bright_width;     // epsilon_y
     float dense;            // T_d' [m at unit density]
     float dense_width;      // epsilon_d'
+    int lights;             // those whose single scattering another effect adds
     float separation_level; // k_ssc
 };
 
@@ -30,10 +31,10 @@ struct Pixel {
     vec3 emitted;
 };
 
-PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth)
+PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth, float gaussians)
 {
     Ray ray = pixel_ray(camera, pixel, raw_depth);
-    float p = ray.keep ? R(0.0) : density_integral(medium, ray.direction, ray.distance);
+    float p = density_to(medium, ray, gaussians);
     return Pixel(p, spread_pixels(medium, camera, p), transmittance(medium, p), scattered_share(medium, p),
                  emitted(medium, p));
 }
@@ -42,6 +43,31 @@ struct Sources {
     vec4 spread;     // L_sc, W
     vec4 separated;  // L_ssc, W
 };
+
+// Whether the pixel shows one of the lights, to within its own width. Needs their spheres: point lights are not seen.
+PURE bool shows_light(sampler2D lights, int count, IN(Camera) camera, IN(Ray) ray)
+{
+    float pixel = R(0.7) * max(abs(camera.tangent_scale.x), abs(camera.tangent_scale.y));
+    for (int i = 0; i < count; ++i) {
+        vec4 sphere = data_texel(lights, 4 * i);
+        vec3 center = vec3(sphere);
+        float reach = sphere.w + pixel * length(center);
+        if (sphere.w > R(0.0) && abs(ray.distance - dot(center, ray.direction)) <= reach &&
+            length(cross(center, ray.direction)) <= reach)
+            return true;
+    }
+    return false;
+}
+
+// L_sc / L beside an effect that adds what the lights scatter once: of pixels that show such a light only what is scattered
+// more than once, or its first scattering would be counted twice.
+PURE vec3 share_beside_lights(sampler2D lights, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth,
+                              IN(Pixel) p)
+{
+    if (count > 0 && shows_light(lights, count, camera, pixel_ray(camera, pixel, raw_depth)))
+        return rescattered_share(medium, p.density);
+    return p.share;
+}
 
 // L_sc and, of bright pixels in thin fog, L_ssc (sec. 4.3, radiance separation). W stops where the coarsest level does:
 // the sky's, which has no bound, would drown that of everything near the horizon once it is blurred.

@@ -1,4 +1,10 @@
-// What a density integral P does to radiance. Needs scene.glsl, density.glsl.
+// What a density integral P does to radiance. Needs scene.glsl, ray.glsl, density.glsl.
+
+// P to what the pixel shows; gaussians: their part of it.
+PURE float density_to(IN(Medium) medium, IN(Ray) ray, float gaussians)
+{
+    return ray.keep ? R(0.0) : min(density_integral(medium, ray.direction, ray.distance) + gaussians, density_limit);
+}
 
 PURE float luminance(vec3 weights, vec3 color)
 {
@@ -26,6 +32,14 @@ PURE vec3 scattered_share(IN(Medium) medium, float p)
 {
     vec3 s = medium.scattering * p;
     return exp(-medium.absorption * p) * vec3(one_minus_exp(s.x), one_minus_exp(s.y), one_minus_exp(s.z));
+}
+
+// The part of it that was scattered more than once: scattering events along the ray are Poisson distributed.
+PURE vec3 rescattered_share(IN(Medium) medium, float p)
+{
+    vec3 s = medium.scattering * p;
+    vec3 more = vec3(one_minus_exp(s.x), one_minus_exp(s.y), one_minus_exp(s.z)) - s * exp(-s);
+    return exp(-medium.absorption * p) * max(more, vec3(R(0.0)));
 }
 
 // The medium's own radiance: int C_e rho e^(-C_t P(t)) dt = C_e P phi(C_t P), exact for any density since only P enters.

@@ -1,6 +1,7 @@
 // PYRAMID and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
+#include "data.glsl"
 #include "density.glsl"
 #include "radiance.glsl"
 #include "spread.glsl"
@@ -15,6 +16,7 @@ uniform float brume_output_limit;
 uniform int outputs;  // those of this frame
 uniform sampler2D color;
 uniform sampler2D depth;
+uniform sampler2D gaussian_density;
 uniform sampler2D radiance;
 uniform sampler2D radiance_stack;
 uniform sampler2D spread_stack;
@@ -35,7 +37,8 @@ void main()
         return;
     vec2 centre = vec2(p) + 0.5;
     vec4 source = texelFetch(color, p, 0);
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r);
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r,
+                                  texelFetch(gaussian_density, p, 0).r);
     vec3 added = pixel.emitted;
 #if PYRAMID
     added += gathered(radiance, radiance_stack, spread_stack, separated, separated_stack,

@@ -1,6 +1,7 @@
 // TAPS, BLURRING, SEPARATION are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
+#include "data.glsl"
 #include "density.glsl"
 #include "radiance.glsl"
 #include "spread.glsl"

@@ -1,5 +1,6 @@
 #include "scene.glsl"
 #include "ray.glsl"
+#include "data.glsl"
 #include "density.glsl"
 #include "radiance.glsl"
 #include "spread.glsl"
@@ -12,6 +13,8 @@ uniform Camera brume_camera;
 uniform Filter multiscatter;
 uniform sampler2D color;
 uniform sampler2D depth;
+uniform sampler2D gaussian_density;
+uniform sampler2D lights;
 writeonly uniform image2D radiance;
 writeonly uniform image2D separated;
 
@@ -20,7 +23,10 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, vec2(p) + 0.5, texelFetch(depth, p, 0).r);
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, vec2(p) + 0.5, texelFetch(depth, p, 0).r,
+                                  texelFetch(gaussian_density, p, 0).r);
+    pixel.share = share_beside_lights(lights, multiscatter.lights, brume_medium, brume_camera, vec2(p) + 0.5,
+                                      texelFetch(depth, p, 0).r, pixel);
     Sources s = scattered_sources(brume_medium, multiscatter, pixel, texelFetch(color, p, 0).rgb);
     imageStore(radiance, p, s.spread);
     if (multiscatter.separation != 0)

@@ -126,7 +126,7 @@ typedef struct brume_plugin_request {
   uint32_t animated;               /* 1: some value of the scene is keyed */
   uint32_t pose_matters;           /* 1: some density term depends on the position */
   uint32_t attenuated;             /* 1: an effect that runs before this one attenuates the image by the medium */
-  uint32_t reserved;
+  uint32_t lights_scatter;         /* 1: some effect of this scene adds what the lights scatter once */
 } brume_plugin_request;
 
 typedef struct brume_plugin_entry {

@@ -1,0 +1,187 @@
+// airlight: what the scene's lights scatter once toward the camera (Zhou et al. 2007, Sun et al. 2005).
+#include <memory>
+#include <string>
+
+#include "passes.h"
+#include "state.h"
+
+namespace airlight {
+namespace {
+
+bool any(const float (&v)[3])
+{
+    return v[0] > 0 || v[1] > 0 || v[2] > 0;
+}
+
+class Planner {
+public:
+    Planner(const brume_services &services, brume_host host, const brume_plugin_request &request)
+        : services_(services), host_(host), request_(request), scene_(*request.scene), state_(std::make_unique<State>())
+    {
+        state_->parameters = read_parameters(request.parameters);
+        state_->width = request.width;
+        state_->height = request.height;
+        state_->attenuates = !request.attenuated;
+    }
+
+    brume_status plan(std::unique_ptr<State> &out);
+
+private:
+    brume_status entry(bool runs, const char *name, const std::string &reason, double bytes, double operations)
+    {
+        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        return services_.add_entry(host_, &e);
+    }
+    brume_status drop(const char *name, const std::string &reason) { return entry(false, name, reason, 0, 0); }
+    brume_status fail(const std::string &message)
+    {
+        return services_.fail(host_, BRUME_ERROR_UNSUPPORTED, message.c_str());
+    }
+
+    brume_status check_tier();
+    brume_status need_camera();
+    brume_status plan_gather();
+
+    const brume_services &services_;
+    brume_host host_;
+    const brume_plugin_request &request_;
+    const brume_plugin_scene &scene_;
+    std::unique_ptr<State> state_;
+};
+
+// The published tiers know less of media than the others; a wrong picture would be worse than none.
+brume_status Planner::check_tier()
+{
+    const Tier tier = state_->parameters.tier;
+    const auto &m = scene_.medium;
+    if (tier == Tier::reference && request_.backend != BRUME_BACKEND_CPU)
+        return fail("tier: reference; expected nodes, fogshop or sun on the GL backend (the reference runs in double on the CPU)");
+    if (tier != Tier::sun && tier != Tier::fogshop)
+        return BRUME_OK;
+    const std::string name = tier == Tier::sun ? "sun" : "fogshop";
+    if (m.term_count > 0)
+        return fail("tier: " + name + " with an exponential density term; expected tier nodes, which knows them");
+    if (tier == Tier::sun && scene_.gaussian_count > 0)
+        return fail("tier: sun with Gaussian density terms; expected fogshop or nodes: Sun et al. know homogeneous media only");
+    if (m.phase[0] != 0 || m.phase[3] != 0)
+        return fail("tier: " + name + " with a phase function that is not isotropic; expected tier nodes, or g 0");
+    for (uint32_t i = 0; i < scene_.light_count; ++i)
+        if (scene_.lights[i].type != BRUME_LIGHT_POINT)
+            return fail("tier: " + name + " with lights[" + std::to_string(i) +
+                        "] of another type than point; expected tier nodes");
+    return BRUME_OK;
+}
+
+brume_status Planner::need_camera()
+{
+    if (state_->lit)
+        return services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
+                                     "the lights are placed in the world");
+    if (request_.pose_matters)
+        return services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
+                                     "the medium's density changes with the position");
+    if (scene_.camera.depth_kind != BRUME_DEPTH_RAY)
+        return services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW,
+                                     "the depth is planar and the field of view turns it into distance along the ray");
+    return BRUME_OK;
+}
+
+brume_status Planner::plan_gather()
+{
+    State &state = *state_;
+    const int reduction = state.parameters.reduction;
+    const int width = (state.width + reduction - 1) / reduction, height = (state.height + reduction - 1) / reduction;
+    auto image = [&](const char *label, int32_t channels, brume_plugin_image &out) {
+        return services_.create_image(host_, label, width, height, channels, &out);
+    };
+    if (brume_status s = image("airlight", 4, state.radiance))
+        return s;
+    if (request_.outputs & BRUME_OUTPUT_AIRLIGHT_ERROR)
+        if (brume_status s = image("airlight error", 4, state.error))
+            return s;
+    if (reduction > 1)
+        if (brume_status s = image("airlight distances", 1, state.distances))
+            return s;
+    if (brume_status s = plan_tables(services_, host_, scene_, state))
+        return s;
+    const double pixels = double(width) * height;
+    // Per light: about 60 operations a node for each of the analytic terms.
+    const double operations = scene_.light_count * 12.0 * (60 + 40 * scene_.medium.term_count + 800 * scene_.gaussian_count);
+    return entry(true, "gather",
+                 std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
+                     (scene_.environment_count ? " and the environment" : "") + " scattered once" +
+                     (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
+                 pixels * (4 + 16), pixels * (100 + operations));
+}
+
+brume_status Planner::plan(std::unique_ptr<State> &out)
+{
+    const auto &m = scene_.medium;
+    if (!scene_.has_medium)
+        return drop("airlight", "the scene has no medium");
+    const bool dense = m.constant > 0 || m.term_count > 0 || scene_.gaussian_count > 0;
+    const bool scatters = dense && any(m.scattering);
+    const bool acts = dense && (scatters || any(m.absorption) || any(m.emission));
+    const bool lights = scene_.light_count > 0 || scene_.environment_count > 0;
+    state_->lit = scatters && lights;
+    if (!state_->lit && (!acts || !state_->attenuates) && request_.outputs == 0)
+        return drop("airlight", !lights ? "no lights and no environment"
+                                        : dense ? "the medium does not scatter" : "the medium's density is zero everywhere");
+    if (brume_status s = check_tier())
+        return s;
+    if (brume_status s = need_camera())
+        return s;
+    if (!state_->lit && !(request_.outputs & BRUME_OUTPUT_LIGHT_AIRLIGHT)) {
+        if (brume_status s = drop("gather", !lights ? "no lights and no environment" : "the medium does not scatter"))
+            return s;
+    } else if (brume_status s = plan_gather()) {
+        return s;
+    }
+    const double pixels = double(state_->width) * state_->height;
+    if (brume_status s = entry(true, "compose",
+                               state_->attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
+                               pixels * (16 + 4 + 16 + (state_->lit ? 16 : 0)), pixels * 150))
+        return s;
+    if (request_.backend == BRUME_BACKEND_GL)
+        if (brume_status s = compile_programs(services_, host_, request_.outputs, *state_))
+            return s;
+    out = std::move(state_);
+    return BRUME_OK;
+}
+
+brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *request, void **out)
+{
+    std::unique_ptr<State> state;
+    brume_status s = Planner(*services, host, *request).plan(state);
+    *out = state.release();
+    return s;
+}
+
+brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
+{
+    State &state = *static_cast<State *>(opaque);
+    return state.compose ? execute_gl(*services, host, state, *frame) : execute_cpu(*services, host, state, *frame);
+}
+
+}  // namespace
+}  // namespace airlight
+
+BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
+{
+    using namespace airlight;
+    static const brume_effect effect{sizeof(brume_effect),
+                                     BRUME_PLUGIN_ABI,
+                                     "airlight",
+                                     "adds what the scene's lights scatter toward the camera (Zhou et al. 2007, Sun et al. 2005)",
+                                     200,
+                                     BRUME_THREADS_SAFE,
+                                     BRUME_WANTED_WITH_LIGHTS,
+                                     own_outputs,
+                                     1,
+                                     uint32_t(parameter_table().size()),
+                                     parameter_table().data(),
+                                     plan,
+                                     execute,
+                                     [](void *state) { delete static_cast<State *>(state); }};
+    return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
+}

@@ -1,0 +1,152 @@
+// The effect on GL: the passes of shaders/passes/airlight_*.comp.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passes.h"
+#include "settings.h"
+
+namespace airlight {
+
+std::string_view pass_text(std::string_view name);
+
+namespace {
+
+using namespace brume::maths_float;
+
+brume_plugin_uniform integer(const char *name, const int32_t &value)
+{
+    return {name, BRUME_UNIFORM_INT, 1, 1, 0, &value};
+}
+
+brume_plugin_uniform real(const char *name, const float &value)
+{
+    return {name, BRUME_UNIFORM_FLOAT, 1, 1, 0, &value};
+}
+
+brume_plugin_uniform pair(const char *name, const ivec2 &value)
+{
+    return {name, BRUME_UNIFORM_INT, 2, 1, 0, &value};
+}
+
+// `uniform AirlightSettings airlight`, member by member.
+std::vector<brume_plugin_uniform> settings_uniforms(const AirlightSettings &s)
+{
+    return {integer("airlight.light_count", s.light_count),
+            integer("airlight.gaussian_count", s.gaussian_count),
+            integer("airlight.smooth_nodes", s.smooth_nodes),
+            integer("airlight.blob_nodes", s.blob_nodes),
+            integer("airlight.near_nodes", s.near_nodes),
+            integer("airlight.dense_nodes", s.dense_nodes),
+            integer("airlight.dense_from", s.dense_from),
+            real("airlight.near_radii", s.near_radii),
+            real("airlight.culled", s.culled)};
+}
+
+class Frame {
+public:
+    Frame(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
+        : services_(services), host_(host), state_(state), frame_(frame), settings_(settings_of(state, *frame.scene))
+    {
+    }
+
+    brume_status gather(brume_plugin_image radiance, brume_plugin_image error, const int32_t &reduction,
+                        const ivec2 &light_range)
+    {
+        const ivec2 size(state_.width, state_.height);
+        auto uniforms = settings_uniforms(settings_);
+        uniforms.push_back(pair("size", size));
+        uniforms.push_back(pair("light_range", light_range));
+        uniforms.push_back(integer("reduction", reduction));
+        return run("gather", state_.gather,
+                   {{"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
+                    {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
+                    {"tiles", frame_.tiles, BRUME_ACCESS_FETCH, 0},
+                    {"gaussians", frame_.gaussians, BRUME_ACCESS_FETCH, 0},
+                    {"lights", frame_.lights, BRUME_ACCESS_FETCH, 0},
+                    {"tile_gaussians", frame_.tile_gaussians, BRUME_ACCESS_FETCH, 0},
+                    {"cells", state_.cells, BRUME_ACCESS_FETCH, 0},
+                    {"cell_gaussians", state_.cell_gaussians, BRUME_ACCESS_FETCH, 0},
+                    {"shadow_origins", state_.origins, BRUME_ACCESS_FETCH, 0},
+                    {"blob_density", state_.blob_density, BRUME_ACCESS_FETCH, 0},
+                    {"sun_table", state_.table, BRUME_ACCESS_LINEAR, 0},
+                    {"environment", state_.environment, BRUME_ACCESS_FETCH, 0},
+                    {"radiance", radiance, BRUME_ACCESS_WRITE, 0},
+                    {"error", error, BRUME_ACCESS_WRITE, 0},
+                    {"distances", reduction > 1 ? state_.distances : nullptr, BRUME_ACCESS_WRITE, 0}},
+                   std::move(uniforms), (size + reduction - 1) / int(reduction));
+    }
+
+    brume_status compose()
+    {
+        const int32_t outputs = int32_t(frame_.outputs);
+        return run("compose", state_.compose,
+                   {{"color", frame_.color, BRUME_ACCESS_FETCH, 0},
+                    {"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
+                    {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
+                    {"radiance", state_.radiance, BRUME_ACCESS_FETCH, 0},
+                    {"error", state_.error, BRUME_ACCESS_FETCH, 0},
+                    {"distances", state_.distances, BRUME_ACCESS_FETCH, 0},
+                    {"result", frame_.output, BRUME_ACCESS_WRITE, 0},
+                    {"transmittance_out", frame_.transmittance, BRUME_ACCESS_WRITE, 0},
+                    {"optical_depth_out", frame_.optical_depth, BRUME_ACCESS_WRITE, 0},
+                    {"airlight_out", frame_.airlight, BRUME_ACCESS_WRITE, 0},
+                    {"airlight_error_out", frame_.airlight_error, BRUME_ACCESS_WRITE, 0}},
+                   {integer("outputs", outputs)}, ivec2(state_.width, state_.height));
+    }
+
+private:
+    brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
+                     std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
+    {
+        std::erase_if(bindings, [](const brume_plugin_binding &b) { return !b.image; });
+        brume_plugin_pass pass{sizeof pass,     uint32_t(bindings.size()), name,   program, bindings.data(),
+                               uniforms.data(), uint32_t(uniforms.size()), grid.x, grid.y,  0};
+        return services_.run(host_, &pass);
+    }
+
+    const brume_services &services_;
+    brume_host host_;
+    const State &state_;
+    const brume_plugin_frame &frame_;
+    AirlightSettings settings_;
+};
+
+}  // namespace
+
+brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state)
+{
+    auto compile = [&](const char *name, const std::string &defines, brume_program &out) {
+        return services.compile(host, name, std::string(pass_text(name)).c_str(), defines.c_str(), &out);
+    };
+    auto define = [](const char *name, uint32_t value) {
+        return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
+    };
+    if (state.radiance)
+        if (brume_status s = compile("airlight_gather.comp", define("TIER", uint32_t(state.parameters.tier)), state.gather))
+            return s;
+    return compile("airlight_compose.comp",
+                   define("LIT", state.lit) + define("ATTENUATES", state.attenuates) +
+                       define("REDUCTION", uint32_t(state.parameters.reduction)) + define("OUTPUTS", outputs & own_outputs),
+                   state.compose);
+}
+
+brume_status execute_gl(const brume_services &services, brume_host host, State &state, const brume_plugin_frame &frame)
+{
+    const int lights = int(frame.scene->light_count);
+    if (state.lit)
+        if (brume_status s = refresh_lists(services, host, frame, state))
+            return s;
+    Frame f(services, host, state, frame);
+    if (state.lit)
+        if (brume_status s = f.gather(state.radiance, state.error, state.parameters.reduction, ivec2(0, lights)))
+            return s;
+    for (int l = 0; l < lights && frame.light_airlight; ++l)
+        if (frame.light_airlight[l])
+            if (brume_status s =
+                    f.gather(frame.light_airlight[l], nullptr, 1, state.lit ? ivec2(l, l + 1) : ivec2(0)))
+                return s;
+    return f.compose();
+}
+
+}  // namespace airlight

@@ -1,0 +1,19 @@
+#pragma once
+#include <span>
+
+#include <brume/brume_plugin.h>
+
+namespace airlight {
+
+enum class Tier { nodes, fogshop, sun, reference };
+
+struct Parameters {
+    Tier tier;
+    double max_error;  // relative, asked of tier nodes
+    int reduction;     // side of the square of pixels that share one evaluation: 1, 2 or 4
+};
+
+std::span<const brume_parameter_info> parameter_table();
+Parameters read_parameters(const double *values);
+
+}  // namespace airlight

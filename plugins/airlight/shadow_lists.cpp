@@ -1,0 +1,199 @@
+#include "shadow_lists.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "scene_maths.hpp"
+
+namespace airlight {
+namespace {
+
+using namespace brume::maths_double;
+
+constexpr size_t most_entries = size_t(1) << 24;  // indices travel as floats
+constexpr int most_levels = 6;
+
+// The cone around a cell's directions. Octahedral cells are polygons of great circles, so a corner lies farthest out.
+struct Cone {
+    vec3 axis;
+    double cosine, sine;
+};
+
+std::vector<Cone> cones_of(int grid)
+{
+    std::vector<Cone> cones(size_t(grid) * size_t(grid));
+    for (int y = 0; y < grid; ++y)
+        for (int x = 0; x < grid; ++x) {
+            Cone &cone = cones[size_t(y * grid + x)];
+            cone.axis = octahedral_direction((vec2(x, y) + 0.5) / double(grid));
+            cone.cosine = 1;
+            for (int corner = 0; corner < 4; ++corner)
+                cone.cosine = std::min(cone.cosine, dot(cone.axis, octahedral_direction(vec2(x + (corner & 1), y + (corner >> 1)) /
+                                                                                       double(grid))));
+            cone.cosine -= 1e-6;  // the shader's rounding may put a direction into the cell beside
+            cone.sine = std::sqrt(std::max(0.0, 1 - cone.cosine * cone.cosine));
+        }
+    return cones;
+}
+
+const std::vector<Cone> &cones_at(int level)
+{
+    static const std::vector<std::vector<Cone>> levels = [] {
+        std::vector<std::vector<Cone>> all;
+        for (int i = 0; i <= most_levels; ++i)
+            all.push_back(cones_of(1 << i));
+        return all;
+    }();
+    return levels[size_t(level)];
+}
+
+vec3 three(const std::array<double, 3> &v)
+{
+    return {v[0], v[1], v[2]};
+}
+
+std::array<double, 3> in_world_axes(const brume_plugin_camera &camera, const float (&v)[3])
+{
+    std::array<double, 3> w;
+    for (size_t i = 0; i < 3; ++i)
+        w[i] = double(v[0]) * camera.right[i] + double(v[1]) * camera.up[i] + double(v[2]) * camera.back[i];
+    return w;
+}
+
+vec3 in_camera_axes(const brume_plugin_camera &camera, vec3 w)
+{
+    auto along = [&](const float (&axis)[3]) { return w.x * axis[0] + w.y * axis[1] + w.z * axis[2]; };
+    return {along(camera.right), along(camera.up), along(camera.back)};
+}
+
+}  // namespace
+
+bool ShadowLists::refresh(const brume_plugin_scene &scene, bool moved, bool with_camera)
+{
+    const Medium medium = medium_of(scene);
+    grid_ = std::clamp(int(std::bit_ceil(uint32_t(std::sqrt(double(scene.gaussian_count)) / 2))), 1, 1 << most_levels);
+    const uint32_t per_origin = uint32_t(grid_) * uint32_t(grid_);
+    spheres_.resize(scene.gaussian_count);
+    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
+        const brume_plugin_gaussian &g = scene.gaussians[i];
+        spheres_[i] = {in_world_axes(scene.camera, g.center), gaussian_reach(medium, gaussian_of(g))};
+    }
+
+    const uint32_t count = 1 + scene.light_count;
+    origins.assign(size_t(count) * 12, 0.0f);
+    cells.resize(size_t(count) * per_origin * 4);
+    for (uint32_t origin = 0; origin < count; ++origin) {
+        origins[12 * origin + 8] = float(origin * per_origin);
+        origins[12 * origin + 9] = float(grid_);
+    }
+    entries_.clear();
+    for (uint32_t l = 0; l < scene.light_count; ++l) {
+        const brume_plugin_light &light = scene.lights[l];
+        const uint32_t first = (1 + l) * per_origin;
+        if (light.type == BRUME_LIGHT_DIRECTIONAL)
+            add_across(scene, l, first, &origins[12 * (1 + l)], moved);
+        else if (moved)
+            add_around(in_world_axes(scene.camera, light.position), first);
+        if (entries_.size() > most_entries)
+            return false;
+    }
+    if (moved) {
+        cell_gaussians.clear();
+        if (!sort_entries(per_origin, scene.light_count * per_origin))
+            return false;
+        light_entries_ = cell_gaussians.size();
+    }
+    cell_gaussians.resize(light_entries_);
+    entries_.clear();
+    if (with_camera)
+        add_around({0, 0, 0}, 0);
+    return sort_entries(0, per_origin);
+}
+
+void ShadowLists::add_around(const std::array<double, 3> &origin, uint32_t first_cell)
+{
+    const int levels = std::countr_zero(uint32_t(grid_));
+    for (uint32_t i = 0; i < spheres_.size(); ++i) {
+        const vec3 away = three(spheres_[i].center) - three(origin);
+        const double distance = length(away), reach = spheres_[i].reach;
+        const bool around = distance <= reach;
+        const double sine = around ? 1 : reach / distance, cosine = std::sqrt(1 - sine * sine);
+        auto descend = [&](auto &self, int level, int x, int y) -> void {
+            const Cone &cone = cones_at(level)[size_t((y << level) + x)];
+            // The cosine of the sum of both half angles; a sum beyond half a turn always overlaps.
+            if (!around && level > 0 && dot(cone.axis, away) < distance * (cosine * cone.cosine - sine * cone.sine))
+                return;
+            if (level == levels) {
+                entries_.push_back({first_cell + uint32_t(y * grid_ + x), i});
+                return;
+            }
+            for (int child = 0; child < 4; ++child)
+                self(self, level + 1, 2 * x + (child & 1), 2 * y + (child >> 1));
+        };
+        descend(descend, 0, 0, 0);
+        if (entries_.size() > most_entries)
+            return;
+    }
+}
+
+// The grid lies across the light, around all Gaussians; its axes are fixed in the world, so that it outlives a move of the
+// camera as the others do.
+void ShadowLists::add_across(const brume_plugin_scene &scene, uint32_t l, uint32_t first_cell, float *texels, bool moved)
+{
+    const vec3 direction = three(in_world_axes(scene.camera, scene.lights[l].direction));
+    const vec3 helper = std::abs(direction.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    const vec3 u = glm::normalize(cross(direction, helper)), v = cross(direction, u);
+    vec2 low(1e30), high(-1e30);
+    for (const Sphere &s : spheres_) {
+        const vec2 at(dot(u, three(s.center)), dot(v, three(s.center)));
+        low = min(low, at - s.reach);
+        high = max(high, at + s.reach);
+    }
+    if (spheres_.empty())
+        low = high = vec2(0);
+    const vec2 size = max(high - low, vec2(1e-20));
+    const vec3 axes[2] = {in_camera_axes(scene.camera, u / size.x), in_camera_axes(scene.camera, v / size.y)};
+    for (int axis = 0; axis < 2; ++axis) {
+        for (int i = 0; i < 3; ++i)
+            texels[4 * axis + i] = float(axes[axis][i]);
+        texels[4 * axis + 3] = float(-low[axis] / size[axis]);
+    }
+    if (!moved)
+        return;
+    for (uint32_t i = 0; i < spheres_.size(); ++i) {
+        const vec2 at = (vec2(dot(u, three(spheres_[i].center)), dot(v, three(spheres_[i].center))) - low) / size;
+        const vec2 reach = spheres_[i].reach / size + 1e-5;
+        auto cell = [&](double x) { return std::clamp(int(std::floor(x * grid_)), 0, grid_ - 1); };
+        for (int y = cell(at.y - reach.y); y <= cell(at.y + reach.y); ++y)
+            for (int x = cell(at.x - reach.x); x <= cell(at.x + reach.x); ++x)
+                entries_.push_back({first_cell + uint32_t(y * grid_ + x), i});
+        if (entries_.size() > most_entries)
+            return;
+    }
+}
+
+// Appends the entries to cell_gaussians, cell by cell, and writes the cells' ranges.
+bool ShadowLists::sort_entries(uint32_t first_cell, uint32_t cell_count)
+{
+    if (entries_.size() + cell_gaussians.size() > most_entries)
+        return false;
+    std::vector<uint32_t> starts(size_t(cell_count) + 1, 0);
+    for (const Entry &entry : entries_)
+        ++starts[entry.cell - first_cell + 1];
+    for (uint32_t i = 0; i < cell_count; ++i)
+        starts[i + 1] += starts[i];
+    const size_t base = cell_gaussians.size();
+    for (uint32_t i = 0; i < cell_count; ++i) {
+        float *cell = &cells[size_t(first_cell + i) * 4];
+        cell[0] = float(base + starts[i]);
+        cell[1] = float(starts[i + 1] - starts[i]);
+        cell[2] = cell[3] = 0;
+    }
+    cell_gaussians.resize(base + entries_.size());
+    for (const Entry &entry : entries_)
+        cell_gaussians[base + starts[entry.cell - first_cell]++] = float(entry.gaussian);
+    return true;
+}
+
+}  // namespace airlight

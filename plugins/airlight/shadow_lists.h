@@ -1,0 +1,47 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <brume/brume_plugin.h>
+
+namespace airlight {
+
+// Which Gaussians can lie between an origin (0: the camera, 1 + l: light l) and a point in some direction from it, as the
+// data images of shaders/lib/shadow.glsl have it.
+//
+// A grid of direction cells won over a tree of cones and over intervals (Fogshop sec. 5.1): a shader finds its list with one
+// fetch, and building it descends a quadtree over the cells, about as many steps as the lists have entries.
+class ShadowLists {
+public:
+    // moved: lights, Gaussians or medium changed; else only the camera did, whose own lists alone are then built again.
+    // Returns false if the lists grow beyond what a float can count.
+    bool refresh(const brume_plugin_scene &scene, bool moved, bool with_camera);
+
+    std::vector<float> origins;         // 3 texels each
+    std::vector<float> cells;           // one texel each
+    std::vector<float> cell_gaussians;  // one value each
+
+private:
+    struct Entry {
+        uint32_t cell;
+        uint32_t gaussian;
+    };
+    // In world axes, from the camera.
+    struct Sphere {
+        std::array<double, 3> center;
+        double reach;
+    };
+
+    void add_around(const std::array<double, 3> &origin, uint32_t first_cell);
+    void add_across(const brume_plugin_scene &scene, uint32_t light, uint32_t first_cell, float *texels,
+                    bool moved);
+    bool sort_entries(uint32_t first_cell, uint32_t cell_count);
+
+    int grid_ = 1;  // cells a side, a power of two
+    std::vector<Sphere> spheres_;
+    std::vector<Entry> entries_;
+    size_t light_entries_ = 0;  // of cell_gaussians, before the camera's
+};
+
+}  // namespace airlight

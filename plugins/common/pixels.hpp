@@ -1,0 +1,50 @@
+// Pixels of the host's images on the CPU, and loops over them.
+#pragma once
+#include "scene_maths.hpp"
+
+namespace brume_pixels {
+
+using brume::maths_float::vec2;
+using brume::maths_float::vec4;
+
+inline float *at(const brume_plugin_pixels &p, int x, int y)
+{
+    return p.data + y * p.row_stride + int64_t(x) * p.channels;
+}
+
+inline vec4 load(const brume_plugin_pixels &p, int x, int y)
+{
+    const float *v = at(p, x, y);
+    return vec4(v[0], v[1], v[2], v[3]);
+}
+
+inline void store(const brume_plugin_pixels &p, int x, int y, vec4 value)
+{
+    float *v = at(p, x, y);
+    v[0] = value.x;
+    v[1] = value.y;
+    v[2] = value.z;
+    v[3] = value.w;
+}
+
+inline vec2 pixel_centre(int x, int y)
+{
+    return vec2(float(x) + 0.5f, float(y) + 0.5f);
+}
+
+// function(y) for each row, on all threads.
+template <class Function>
+brume_status for_rows(const brume_services &services, brume_host host, const char *pass, int count, int grain,
+                      Function function)
+{
+    return services.rows(
+        host, pass, count, grain,
+        [](void *user, int32_t first, int32_t last) {
+            for (int32_t y = first; y < last; ++y)
+                (*static_cast<Function *>(user))(y);
+            return brume_status(BRUME_OK);
+        },
+        &function);
+}
+
+}  // namespace brume_pixels

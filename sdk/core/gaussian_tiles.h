@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include <brume/brume_plugin.h>
+
+namespace brume {
+
+// Which Gaussians matter in which tiles of the screen: as frame->tiles and frame->tile_gaussians have it.
+struct GaussianTiles {
+    int32_t columns = 0;
+    int32_t rows = 0;
+    std::vector<float> ranges;   // 4 per tile, row by row: first, count, 0, 0
+    std::vector<float> indices;  // of the Gaussians, ascending distance within a tile
+    uint64_t seen = 0;           // Gaussians that are in some tile
+};
+
+// Throws Error(BRUME_ERROR_UNSUPPORTED) if the lists grow beyond what a float can count.
+void build_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height, GaussianTiles &out);
+
+}  // namespace brume

@@ -1,0 +1,49 @@
+// TIER is set by the plan.
+#include "scene.glsl"
+#include "ray.glsl"
+#include "density.glsl"
+#include "radiance.glsl"
+#include "data.glsl"
+#include "gaussian.glsl"
+#include "tiles.glsl"
+#include "upsample.glsl"
+#include "phase.glsl"
+#include "light.glsl"
+#include "shadow.glsl"
+#include "quadrature.glsl"
+#include "airlight.glsl"
+#include "airlight_nodes.glsl"
+#include "airlight_pixel.glsl"
+
+uniform Medium brume_medium;
+uniform Camera brume_camera;
+uniform AirlightSettings airlight;
+uniform ivec2 size;  // of the full images
+uniform int reduction;
+uniform ivec2 light_range;
+uniform sampler2D depth;
+uniform sampler2D gaussian_density;
+uniform sampler2D tiles;
+uniform sampler2D gaussians;
+uniform sampler2D lights;
+uniform sampler2D tile_gaussians;
+uniform sampler2D cells;
+uniform sampler2D cell_gaussians;
+uniform sampler2D shadow_origins;
+uniform sampler2D blob_density;
+writeonly uniform image2D radiance;
+writeonly uniform image2D error;
+writeonly uniform image2D distances;
+
+void main()
+{
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (p.x >= brume_grid.x || p.y >= brume_grid.y)
+        return;
+    ivec2 pixel = representative(p, reduction, size);
+    Airlight a = airlight_at(brume_medium, brume_camera, airlight, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
+    imageStore(radiance, p, vec4(a.radiance, 1.0));
+    imageStore(error, p, vec4(a.error, 1.0));
+    Ray ray = pixel_ray(brume_camera, vec2(pixel) + 0.5, texelFetch(depth, pixel, 0).r);
+    imageStore(distances, p, vec4(ray.distance, 0.0, 0.0, 1.0));
+}
