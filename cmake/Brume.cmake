@@ -33,5 +33,6 @@ function(brume_add_effect name)
   set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/brume
     LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/effect.map
     CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  add_dependencies(effects ${name})
   install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/brume COMPONENT runtime)
 endfunction()
