@@ -3,11 +3,14 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <brume/brume.h>
+#include <brume/brume_media.h>
 
 #include "core/context.h"
 #include "core/error.h"
+#include "core/media/history.h"
 #include "core/plan.h"
 #include "core/scene.h"
 
@@ -19,6 +22,11 @@ struct brume_context_t {
 struct brume_scene_t {
     std::shared_ptr<brume::Context> context;
     brume::Scene scene;
+};
+
+struct brume_media_t {
+    std::shared_ptr<brume::Context> context;
+    brume::media::History history;
 };
 
 struct brume_plan_t {
@@ -59,8 +67,12 @@ template <class Function> brume_status barrier(const Context *context, Function 
     }
 }
 
-// A caller's camera, by the size it gave.
+// A caller's structs, by the size it gave, each field in its range.
 brume_camera read_camera(const brume_camera *given, const char *name);
+brume_format read_format(const brume_format *given);
+brume_image read_image(const brume_image *given, const char *name);
+std::vector<Gaussian> read_gaussians(const brume_gaussian *given, uint32_t count, const std::string &name,
+                                     const std::string &count_name);
 
 inline void expect(bool condition, const char *message)
 {

@@ -15,10 +15,6 @@ brume_camera read_camera(const brume_camera *given, const char *name)
                        &brume_camera::center, &brume_camera::camera_to_world);
 }
 
-}  // namespace brume::api
-
-namespace {
-
 brume_format read_format(const brume_format *given)
 {
     brume_format format = BRUME_FORMAT_INIT;
@@ -82,6 +78,10 @@ brume_image read_image(const brume_image *given, const char *name)
     }
     return image;
 }
+
+}  // namespace brume::api
+
+namespace {
 
 template <class Function> brume_status with_plan(brume_plan plan, Function function)
 {

@@ -13,6 +13,39 @@ using namespace brume::api;
 
 namespace {
 
+Gaussian read_gaussian(const brume_gaussian *given, const std::string &name)
+{
+    brume_gaussian read = BRUME_GAUSSIAN_INIT;
+    read = read_struct(given, read, name.c_str(), &brume_gaussian::center, &brume_gaussian::scale,
+                       &brume_gaussian::amplitude, &brume_gaussian::colour);
+    Gaussian gaussian;
+    std::copy_n(read.center, 3, gaussian.center.begin());
+    gaussian.scale = read.scale;
+    gaussian.amplitude = read.amplitude;
+    std::transform(read.colour, read.colour + 3, gaussian.colour.begin(), [](double x) { return float(x); });
+    check_gaussian(gaussian, name);
+    return gaussian;
+}
+
+}  // namespace
+
+std::vector<Gaussian> api::read_gaussians(const brume_gaussian *given, uint32_t count, const std::string &name,
+                                          const std::string &count_name)
+{
+    if (!given && count > 0)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: NULL with a {} above 0", name, count_name));
+    if (count > BRUME_MAX_GAUSSIANS)
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}: {}; expected at most {}", count_name, count, BRUME_MAX_GAUSSIANS));
+    std::vector<Gaussian> gaussians;
+    gaussians.reserve(count);
+    for (size_t i = 0; i < count; ++i)
+        gaussians.push_back(read_gaussian(element(given, i), name + "[" + std::to_string(i) + "]"));
+    return gaussians;
+}
+
+namespace {
+
 template <class Function> brume_status with_scene(brume_scene scene, Function function)
 {
     if (!scene)
@@ -34,42 +67,14 @@ DensityTerm read_term(const brume_density_term *given, size_t index)
     return {term.type, term.value, term.falloff, numbers(term.direction), numbers(term.origin)};
 }
 
-// Element i of a caller's array, whose stride is the size that its first element names.
-template <class Struct> const Struct *element(const Struct *first, size_t i)
+std::vector<GaussianSet> gaussians_of(const brume_medium &medium)
 {
-    return reinterpret_cast<const Struct *>(reinterpret_cast<const unsigned char *>(first) + i * first->struct_size);
-}
-
-Gaussian read_gaussian(const brume_gaussian *given, const std::string &name)
-{
-    brume_gaussian read = BRUME_GAUSSIAN_INIT;
-    read = read_struct(given, read, name.c_str(), &brume_gaussian::center, &brume_gaussian::scale,
-                       &brume_gaussian::amplitude, &brume_gaussian::colour);
-    Gaussian gaussian;
-    std::copy_n(read.center, 3, gaussian.center.begin());
-    gaussian.scale = read.scale;
-    gaussian.amplitude = read.amplitude;
-    std::transform(read.colour, read.colour + 3, gaussian.colour.begin(), [](double x) { return float(x); });
-    check_gaussian(gaussian, name);
-    return gaussian;
-}
-
-std::vector<GaussianSet> read_gaussians(const brume_medium &medium)
-{
-    expect(medium.gaussians || medium.gaussian_count == 0, "brume_medium.gaussians: NULL with a gaussian_count above 0");
-    if (medium.gaussian_count > BRUME_MAX_GAUSSIANS)
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("brume_medium.gaussian_count: {}; expected at most {}",
-                                                      medium.gaussian_count, BRUME_MAX_GAUSSIANS));
     if (medium.gaussian_count == 0)
         return {};
-    auto gaussians = std::make_shared<std::vector<Gaussian>>();
-    gaussians->reserve(medium.gaussian_count);
-    for (size_t i = 0; i < medium.gaussian_count; ++i)
-        gaussians->push_back(
-            read_gaussian(element(medium.gaussians, i), "brume_medium.gaussians[" + std::to_string(i) + "]"));
     GaussianSet set;
     set.file = "brume_medium.gaussians";
-    set.fixed = std::move(gaussians);
+    set.fixed = std::make_shared<std::vector<Gaussian>>(
+        read_gaussians(medium.gaussians, medium.gaussian_count, "brume_medium.gaussians", "brume_medium.gaussian_count"));
     return {set};
 }
 
@@ -158,7 +163,7 @@ brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *give
         expect(medium.term_count <= 4096, "brume_medium.term_count: expected 0 to 4096");
         for (size_t i = 0; i < medium.term_count; ++i)
             result.density.push_back(read_term(element(medium.terms, i), i));
-        result.gaussian_sets = read_gaussians(medium);
+        result.gaussian_sets = gaussians_of(medium);
         check_medium(result);
         scene.medium = std::move(result);
     });

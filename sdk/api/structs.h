@@ -47,6 +47,12 @@ Struct read_struct(const Struct *given, const Struct &defaults, const char *name
     return result;
 }
 
+// Element i of a caller's array, whose stride is the size that its first element names.
+template <class Struct> const Struct *element(const Struct *first, size_t i)
+{
+    return reinterpret_cast<const Struct *>(reinterpret_cast<const unsigned char *>(first) + i * first->struct_size);
+}
+
 // Fills as much of the caller's struct as it has room for.
 template <class Struct> void write_struct(Struct *out, Struct value, const char *name)
 {

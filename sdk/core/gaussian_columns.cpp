@@ -32,15 +32,13 @@ constexpr Name known_names[] = {{"x", x},
                                 {"green", green},
                                 {"blue", blue}};
 
-constexpr Range share{0.0, 1.0};
-
 const Range &range_of(size_t field)
 {
     if (field <= z)
         return ranges::any;
     if (field <= radius)
         return ranges::positive;
-    return field == amplitude ? ranges::not_negative : share;
+    return field == amplitude ? ranges::not_negative : ranges::fraction;
 }
 
 std::string listed(const std::vector<std::string> &names)

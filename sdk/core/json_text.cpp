@@ -13,7 +13,6 @@
 namespace brume {
 namespace {
 
-constexpr size_t largest_text = size_t(8) << 20;
 constexpr size_t deepest_nesting = 64;
 
 using Json = nlohmann::json;
@@ -21,7 +20,7 @@ using Json = nlohmann::json;
 // Follows the parser, whose events carry no positions, token by token through the same text.
 class Cursor {
 public:
-    explicit Cursor(std::string_view text) : text_(text)
+    Cursor(std::string_view text, TextPosition begin) : text_(text), position_(begin)
     {
         if (text_.substr(0, 3) == "\xef\xbb\xbf")
             offset_ = 3;
@@ -91,7 +90,7 @@ std::string syntax_error(const std::string &message)
 
 class TreeBuilder : public nlohmann::json_sax<Json> {
 public:
-    TreeBuilder(std::string_view text, const std::string &name) : cursor_(text), name_(name) {}
+    TreeBuilder(std::string_view text, const std::string &name, TextPosition begin) : cursor_(text, begin), name_(name) {}
 
     JsonValue root;
 
@@ -189,17 +188,17 @@ std::string JsonValue::describe() const
     return std::visit(describer, content);
 }
 
-JsonValue parse_json(const std::string &text, const std::string &name)
+JsonValue parse_json(const std::string &text, const std::string &name, TextPosition begin, size_t largest)
 {
-    if (text.size() > largest_text)
-        throw Error(BRUME_ERROR_SCENE, fmt::format("{}: {} bytes; expected at most {}", name, text.size(), largest_text));
+    if (text.size() > largest)
+        throw Error(BRUME_ERROR_SCENE, fmt::format("{}: {} bytes; expected at most {}", name, text.size(), largest));
     // The parser takes a NUL for the end and would not see what follows.
     if (const size_t nul = text.find('\0'); nul != std::string::npos) {
-        const TextPosition position = Cursor(text).at(nul);
+        const TextPosition position = Cursor(text, begin).at(nul);
         throw Error(BRUME_ERROR_SCENE,
                     fmt::format("{}:{}:{}: NUL byte; expected JSON text", name, position.line, position.column));
     }
-    TreeBuilder builder(text, name);
+    TreeBuilder builder(text, name, begin);
     Json::sax_parse(text, &builder);
     return std::move(builder.root);
 }

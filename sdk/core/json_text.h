@@ -34,7 +34,8 @@ struct JsonMember {
 };
 
 // Strict JSON: no comments, no duplicate keys, numbers finite, nesting and size bounded. Throws Error(BRUME_ERROR_SCENE)
-// as "name:line:column: ...".
-JsonValue parse_json(const std::string &text, const std::string &name);
+// as "name:line:column: ...", counting from where the text begins in its file.
+JsonValue parse_json(const std::string &text, const std::string &name, TextPosition begin = {},
+                     size_t largest = size_t(8) << 20);
 
 }  // namespace brume

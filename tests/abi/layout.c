@@ -1,6 +1,7 @@
 /* Sizes and offsets of every struct of the C ABI on x86-64. A change here breaks programs that were built already:
  * append fields instead, and extend this file. */
 #include <brume/brume.h>
+#include <brume/brume_media.h>
 
 #if defined(__x86_64__) && defined(__LP64__)
 
@@ -169,6 +170,76 @@ FIELD(brume_frame, extra, 32, 8);
 FIELD(brume_frame, camera, 40, 8);
 FIELD(brume_frame, frame, 48, 8);
 
+SIZE(brume_media_info, 24);
+FIELD(brume_media_info, struct_size, 0, 4);
+FIELD(brume_media_info, gaussian_count, 4, 4);
+FIELD(brume_media_info, selected_count, 8, 4);
+FIELD(brume_media_info, clipboard_count, 12, 4);
+FIELD(brume_media_info, undo_count, 16, 4);
+FIELD(brume_media_info, redo_count, 20, 4);
+
+SIZE(brume_media_view, 32);
+FIELD(brume_media_view, struct_size, 0, 4);
+FIELD(brume_media_view, reserved, 4, 4);
+FIELD(brume_media_view, camera, 8, 8);
+FIELD(brume_media_view, format, 16, 8);
+FIELD(brume_media_view, depth, 24, 8);
+
+SIZE(brume_media_stroke, 72);
+FIELD(brume_media_stroke, struct_size, 0, 4);
+FIELD(brume_media_stroke, point_count, 4, 4);
+FIELD(brume_media_stroke, points, 8, 8);
+FIELD(brume_media_stroke, view, 16, 8);
+FIELD(brume_media_stroke, plane_point, 24, 24);
+FIELD(brume_media_stroke, plane_normal, 48, 24);
+
+SIZE(brume_media_paint, 72);
+FIELD(brume_media_paint, struct_size, 0, 4);
+FIELD(brume_media_paint, seed, 4, 4);
+FIELD(brume_media_paint, stroke, 8, 8);
+FIELD(brume_media_paint, scale, 16, 8);
+FIELD(brume_media_paint, amplitude, 24, 8);
+FIELD(brume_media_paint, colour, 32, 24);
+FIELD(brume_media_paint, spacing, 56, 8);
+FIELD(brume_media_paint, jitter, 64, 8);
+
+SIZE(brume_media_erase, 32);
+FIELD(brume_media_erase, struct_size, 0, 4);
+FIELD(brume_media_erase, reserved, 4, 4);
+FIELD(brume_media_erase, stroke, 8, 8);
+FIELD(brume_media_erase, radius, 16, 8);
+FIELD(brume_media_erase, strength, 24, 8);
+
+SIZE(brume_media_emitter, 176);
+FIELD(brume_media_emitter, struct_size, 0, 4);
+FIELD(brume_media_emitter, seed, 4, 4);
+FIELD(brume_media_emitter, position, 8, 24);
+FIELD(brume_media_emitter, radius, 32, 8);
+FIELD(brume_media_emitter, velocity, 40, 24);
+FIELD(brume_media_emitter, spread, 64, 8);
+FIELD(brume_media_emitter, acceleration, 72, 24);
+FIELD(brume_media_emitter, rate, 96, 8);
+FIELD(brume_media_emitter, duration, 104, 8);
+FIELD(brume_media_emitter, lifetime, 112, 8);
+FIELD(brume_media_emitter, scale, 120, 16);
+FIELD(brume_media_emitter, amplitude, 136, 16);
+FIELD(brume_media_emitter, colour, 152, 24);
+
+SIZE(brume_media_airbrush, 144);
+FIELD(brume_media_airbrush, struct_size, 0, 4);
+FIELD(brume_media_airbrush, seed, 4, 4);
+FIELD(brume_media_airbrush, view, 8, 8);
+FIELD(brume_media_airbrush, position, 16, 24);
+FIELD(brume_media_airbrush, velocity, 40, 24);
+FIELD(brume_media_airbrush, spread, 64, 8);
+FIELD(brume_media_airbrush, drag, 72, 8);
+FIELD(brume_media_airbrush, diffusion, 80, 8);
+FIELD(brume_media_airbrush, rate, 88, 8);
+FIELD(brume_media_airbrush, duration, 96, 8);
+FIELD(brume_media_airbrush, scale, 104, 8);
+FIELD(brume_media_airbrush, amplitude, 112, 8);
+FIELD(brume_media_airbrush, colour, 120, 24);
+
 #endif
 
 /* Every INIT macro is a valid initialiser of its struct in C. */
@@ -190,7 +261,16 @@ void brume_test_initialisers(void)
   brume_image image = BRUME_IMAGE_INIT;
   brume_extra_output extra_output = BRUME_EXTRA_OUTPUT_INIT;
   brume_frame frame = BRUME_FRAME_INIT;
+  brume_media_info media_info = BRUME_MEDIA_INFO_INIT;
+  brume_media_view media_view = BRUME_MEDIA_VIEW_INIT;
+  brume_media_stroke media_stroke = BRUME_MEDIA_STROKE_INIT;
+  brume_media_paint media_paint = BRUME_MEDIA_PAINT_INIT;
+  brume_media_erase media_erase = BRUME_MEDIA_ERASE_INIT;
+  brume_media_emitter media_emitter = BRUME_MEDIA_EMITTER_INIT;
+  brume_media_airbrush media_airbrush = BRUME_MEDIA_AIRBRUSH_INIT;
   (void)context_desc, (void)context_info, (void)effect_info, (void)parameter_info, (void)density_term, (void)medium;
   (void)camera, (void)format, (void)plan_info, (void)plan_entry, (void)image, (void)extra_output, (void)frame;
   (void)gaussian, (void)light;
+  (void)media_info, (void)media_view, (void)media_stroke, (void)media_paint, (void)media_erase, (void)media_emitter;
+  (void)media_airbrush;
 }

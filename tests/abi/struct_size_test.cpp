@@ -1,4 +1,6 @@
 // Size-tagged structs: smaller ones of an older header, larger ones of a newer, and nonsense.
+#include <brume/brume_media.h>
+
 #include "support.h"
 
 using namespace client;
@@ -123,6 +125,42 @@ TEST_F(StructSize, OfInputs)
                                         f.extra = given;
                                         return brume_plan_execute(plan.get(), &f);
                                     });
+}
+
+TEST_F(StructSize, OfMedia)
+{
+    brume_media media = nullptr;
+    ASSERT_EQ(brume_media_create(context.get(), &media), BRUME_OK);
+    const double points[] = {0, 0, 0}, rectangle[] = {0, 0, 1, 1};
+    brume_camera camera = BRUME_CAMERA_INIT;
+    camera.given = BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE;
+    const brume_format format = ray_format(4, 3);
+    brume_media_view view = BRUME_MEDIA_VIEW_INIT;
+    view.camera = &camera;
+    view.format = &format;
+    brume_media_stroke stroke = BRUME_MEDIA_STROKE_INIT;
+    stroke.points = points;
+    stroke.point_count = 1;
+    brume_media_paint paint = BRUME_MEDIA_PAINT_INIT;
+    paint.stroke = &stroke;
+    brume_media_erase erase = BRUME_MEDIA_ERASE_INIT;
+    erase.stroke = &stroke;
+    check_sizes<brume_media_info>(context.get(), BRUME_MEDIA_INFO_INIT,
+                                  [&](auto *info) { return brume_media_get_info(media, info); });
+    check_sizes<brume_media_view>(context.get(), view,
+                                  [&](auto *given) { return brume_media_select_rectangle(media, given, rectangle, 0); });
+    check_sizes<brume_media_stroke>(context.get(), stroke, [&](auto *given) {
+        brume_media_paint p = paint;
+        p.stroke = given;
+        return brume_media_apply_paint(media, &p);
+    });
+    check_sizes<brume_media_paint>(context.get(), paint, [&](auto *given) { return brume_media_apply_paint(media, given); });
+    check_sizes<brume_media_erase>(context.get(), erase, [&](auto *given) { return brume_media_apply_erase(media, given); });
+    check_sizes<brume_media_emitter>(context.get(), BRUME_MEDIA_EMITTER_INIT,
+                                     [&](auto *given) { return brume_media_apply_emit(media, given, 1.0); });
+    check_sizes<brume_media_airbrush>(context.get(), BRUME_MEDIA_AIRBRUSH_INIT,
+                                      [&](auto *given) { return brume_media_apply_airbrush(media, given); });
+    brume_media_destroy(media);
 }
 
 TEST_F(StructSize, OfResults)
