@@ -31,6 +31,7 @@ std::vector<brume_plugin_uniform> filter_uniforms(const Filter &f)
             integer("multiscatter.masking", f.masking),
             integer("multiscatter.density_blurring", f.density_blurring),
             integer("multiscatter.separation", f.separation),
+            integer("multiscatter.placement", f.placement),
             integer("multiscatter.lights", f.lights),
             real("multiscatter.scale", f.scale),
             real("multiscatter.mask_width", f.mask_width),

@@ -14,6 +14,7 @@ enum Index {
     masking,
     mask_width,
     density_blurring,
+    placement,
     separation,
     separation_luminance,
     separation_luminance_width,
@@ -37,6 +38,8 @@ constexpr brume_parameter_info table[count] = {
             "keep light that spreads little out of coarse levels (loses about half of a uniform image's light)"),
     number("mask_width", 0, 100, 2, "", "epsilon: width of that mask as a multiple of its threshold"),
     boolean("density_blurring", true, "blur the deviation before choosing a level: no edges where depth jumps"),
+    boolean("placement", false,
+            "scale the blur by where along the ray the medium is (sqrt(3 M2)); the paper takes it for homogeneous"),
     boolean("separation", false, "filter bright pixels in thin fog apart from the rest"),
     number("separation_luminance", 0, 1e10, 1, "radiance", "luminance above which pixels are separated"),
     number("separation_luminance_width", 0, 1e10, 1, "radiance", "width of that threshold"),
@@ -62,6 +65,7 @@ Parameters read_parameters(const double *values)
     p.filter.fetch = int(values[fetch]);
     p.filter.masking = int(values[masking]);
     p.filter.density_blurring = int(values[density_blurring]);
+    p.filter.placement = int(values[placement]);
     p.filter.separation = int(values[separation]);
     p.filter.scale = float(values[level_scale]);
     p.filter.mask_width = float(values[mask_width]);

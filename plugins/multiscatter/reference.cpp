@@ -33,6 +33,7 @@ struct Job {
     const State &state;
     Medium medium;
     Camera camera;
+    Filter filter;
     double output_limit;
     brume_plugin_pixels color{}, depth{}, gaussian_density{}, output{}, transmittance{}, optical_depth{}, scattered{}, blur_radius{};
     Data lights;
@@ -54,8 +55,10 @@ double depth_at(const Job &job, int x, int y)
 Pixel pixel_at(const Job &job, int x, int y)
 {
     const brume_plugin_pixels &g = job.gaussian_density;
-    double gaussians = g.data ? g.data[y * g.row_stride + int64_t(x) * g.channels] : 0.0f;
-    return pixel_in_medium(job.medium, job.camera, vec2(x + 0.5, y + 0.5), depth_at(job, x, y), gaussians);
+    vec2 gaussians(0);
+    if (const float *v = g.data ? g.data + y * g.row_stride + int64_t(x) * g.channels : nullptr)
+        gaussians = vec2(v[0], v[1]);
+    return pixel_in_medium(job.medium, job.camera, job.filter, vec2(x + 0.5, y + 0.5), depth_at(job, x, y), gaussians);
 }
 
 void store(const brume_plugin_pixels &p, int x, int y, vec3 v, double alpha)
@@ -129,9 +132,11 @@ brume_status execute_reference(const brume_services &services, brume_host host, 
     Job job{.state = state,
             .medium = medium_of(*frame.scene),
             .camera = camera_of(*frame.scene),
+            .filter = {},
             .output_limit = frame.scene->output_limit,
             .lights = lights_of(*frame.scene),
             .light_count = int(frame.scene->light_count)};
+    job.filter.placement = state.parameters.filter.placement;
     const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
         {frame.color, &job.color},
         {frame.depth, &job.depth},

@@ -34,7 +34,7 @@ Filter filter_of(const State &state, const brume_plugin_scene &scene)
     f.top = state.top;
     f.lights = state.beside_lights ? int(scene.light_count) : 0;
     // One level more than the blur asks for, since the cubic interpolation between levels reaches that far.
-    double blur = largest_blur(scene);
+    double blur = largest_blur(scene) * (f.placement ? std::sqrt(3.0) : 1.0);
     if (std::isfinite(blur))
         f.top = std::clamp(int(std::ceil(std::log2(std::max(blur, 1e-6) / f.scale))) + 2, std::min(1, state.top), state.top);
     f.separation_level = std::min(float(state.parameters.separation_fraction * state.top), float(f.top));

@@ -11,6 +11,7 @@ struct Filter {
     int masking;
     int density_blurring;
     int separation;
+    int placement;
     float scale;            // c
     float mask_width;       // epsilon
     float bright;           // T_y
@@ -31,11 +32,15 @@ struct Pixel {
     vec3 emitted;
 };
 
-PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth, float gaussians)
+// gaussians: their part of P and of its moment.
+PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, IN(Filter) f, vec2 pixel, float raw_depth, vec2 gaussians)
 {
     Ray ray = pixel_ray(camera, pixel, raw_depth);
-    float p = density_to(medium, ray, gaussians);
-    return Pixel(p, spread_pixels(medium, camera, p), transmittance(medium, p), scattered_share(medium, p),
+    float p = density_to(medium, ray, gaussians.x);
+    float w = spread_pixels(medium, camera, p);
+    if (f.placement != 0 && !ray.keep)
+        w *= placement(density_moment(medium, ray.direction, ray.distance) + gaussians.y, p);
+    return Pixel(p, w, transmittance(medium, p), scattered_share(medium, p),
                  emitted(medium, p));
 }
 

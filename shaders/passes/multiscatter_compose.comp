@@ -37,8 +37,8 @@ void main()
         return;
     vec2 centre = vec2(p) + 0.5;
     vec4 source = texelFetch(color, p, 0);
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r,
-                                  texelFetch(gaussian_density, p, 0).r);
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, centre, texelFetch(depth, p, 0).r,
+                                  texelFetch(gaussian_density, p, 0).rg);
     vec3 added = pixel.emitted;
 #if PYRAMID
     added += gathered(radiance, radiance_stack, spread_stack, separated, separated_stack,

@@ -23,8 +23,8 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, vec2(p) + 0.5, texelFetch(depth, p, 0).r,
-                                  texelFetch(gaussian_density, p, 0).r);
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, vec2(p) + 0.5, texelFetch(depth, p, 0).r,
+                                  texelFetch(gaussian_density, p, 0).rg);
     pixel.share = share_beside_lights(lights, multiscatter.lights, brume_medium, brume_camera, vec2(p) + 0.5,
                                       texelFetch(depth, p, 0).r, pixel);
     Sources s = scattered_sources(brume_medium, multiscatter, pixel, texelFetch(color, p, 0).rgb);
