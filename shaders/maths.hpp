@@ -23,6 +23,9 @@ inline bool is_finite(double x)
 #define IN(type) const type &
 #define PURE [[gnu::always_inline]] inline
 
+// Tiers take the same images whether they read them or not.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 namespace maths_float {
 using real = float;
 #include "maths_types.inc"
@@ -34,6 +37,7 @@ using real = double;
 #include "maths_types.inc"
 }  // namespace maths_double
 #undef float
+#pragma GCC diagnostic pop
 #undef R
 #undef PURE
 #undef IN

@@ -11,19 +11,18 @@ namespace {
 using namespace brume::maths_float;
 using namespace brume_pixels;
 
-// All that the passes of one frame share.
-class Frame {
+class CpuPasses : public Passes {
 public:
-    Frame(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
+    CpuPasses(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
         : services_(services), host_(host), state_(state), frame_(frame), medium_(medium_of(*frame.scene)),
           camera_(camera_of(*frame.scene)), settings_(settings_of(state, *frame.scene))
     {
     }
 
     brume_status map();
-    // Into images of one texel per square of `reduction` pixels; error may have no data.
-    brume_status gather(brume_plugin_image radiance, brume_plugin_image error, int reduction, ivec2 light_range);
-    brume_status compose();
+    brume_status blobs() override;
+    brume_status gather(const Gathering &gathering) override;
+    brume_status compose() override;
 
 private:
     brume_status map(brume_plugin_image image, brume_plugin_pixels &out)
@@ -46,11 +45,11 @@ private:
     Camera camera_;
     AirlightSettings settings_;
     brume_plugin_pixels color_{}, depth_{}, output_{}, gaussian_density_{}, gaussians_{}, lights_{}, tiles_{},
-        tile_gaussians_{}, origins_{}, cells_{}, cell_gaussians_{}, blob_density_{}, table_{}, environment_{}, radiance_{},
+        tile_gaussians_{}, origins_{}, cells_{}, cell_gaussians_{}, blob_density_{}, sun_table_{}, environment_{}, environment_table_{}, radiance_{},
         error_{}, distances_{}, transmittance_{}, optical_depth_{}, airlight_{}, airlight_error_{};
 };
 
-brume_status Frame::map()
+brume_status CpuPasses::map()
 {
     const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
         {frame_.color, &color_},
@@ -65,8 +64,9 @@ brume_status Frame::map()
         {state_.cells, &cells_},
         {state_.cell_gaussians, &cell_gaussians_},
         {state_.blob_density, &blob_density_},
-        {state_.table, &table_},
+        {state_.sun_table, &sun_table_},
         {state_.environment, &environment_},
+        {state_.environment_table, &environment_table_},
         {state_.radiance, &radiance_},
         {state_.error, &error_},
         {state_.distances, &distances_},
@@ -81,33 +81,52 @@ brume_status Frame::map()
     return BRUME_OK;
 }
 
-brume_status Frame::gather(brume_plugin_image radiance_image, brume_plugin_image error_image, int reduction, ivec2 light_range)
+brume_status CpuPasses::gather(const Gathering &to)
 {
-    brume_plugin_pixels radiance{}, error{};
-    if (brume_status s = map(radiance_image, radiance))
-        return s;
-    if (brume_status s = map(error_image, error))
-        return s;
+    if (state_.parameters.tier == Tier::reference)
+        return gather_reference(services_, host_, state_, frame_, to);
+    brume_plugin_pixels radiance{}, error{}, distances{};
+    const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
+        {to.radiance, &radiance}, {to.error, &error}, {to.distances, &distances}};
+    for (auto &[image, pixels] : images)
+        if (brume_status s = map(image, *pixels))
+            return s;
+    AirlightSettings settings = settings_;
+    if (!to.environment)
+        settings.environment_order = 0;
+    const ivec2 light_range(to.first_light, to.last_light);
     const ivec2 size(state_.width, state_.height);
     const Texture depth = texture_of(depth_), gaussian_density = texture_of(gaussian_density_), tiles = texture_of(tiles_),
                   gaussians = texture_of(gaussians_), lights = texture_of(lights_),
                   tile_gaussians = texture_of(tile_gaussians_), cells = texture_of(cells_),
                   cell_gaussians = texture_of(cell_gaussians_), shadow_origins = texture_of(origins_),
-                  blob_density = texture_of(blob_density_);
+                  blob_density = texture_of(blob_density_), sun_table = texture_of(sun_table_),
+                  environment = texture_of(environment_), environment_table = texture_of(environment_table_);
     return for_rows(services_, host_, "gather", radiance.height, 4, [&](int y) {
         for (int x = 0; x < radiance.width; ++x) {
-            const ivec2 pixel = representative(ivec2(x, y), reduction, size);
-            const Airlight a = airlight_at(medium_, camera_, settings_, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
+            const ivec2 pixel = representative(ivec2(x, y), to.reduction, size);
+            const Airlight a = airlight_at(medium_, camera_, settings, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
             store(radiance, x, y, vec4(a.radiance, 1.0f));
             if (error.data)
                 store(error, x, y, vec4(a.error, 1.0f));
-            if (reduction > 1)
-                *at(distances_, x, y) = pixel_ray(camera_, pixel_centre(pixel.x, pixel.y), *at(depth_, pixel.x, pixel.y)).distance;
+            if (distances.data)
+                *at(distances, x, y) = pixel_ray(camera_, pixel_centre(pixel.x, pixel.y), *at(depth_, pixel.x, pixel.y)).distance;
         }
     });
 }
 
-brume_status Frame::compose()
+brume_status CpuPasses::blobs()
+{
+    const int values = settings_.gaussian_count * (1 + settings_.light_count);
+    const Texture gaussians = texture_of(gaussians_), lights = texture_of(lights_), cells = texture_of(cells_),
+                  cell_gaussians = texture_of(cell_gaussians_), shadow_origins = texture_of(origins_);
+    return for_rows(services_, host_, "blobs", (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, 1, [&](int y) {
+        for (int x = 0; x < BRUME_DATA_WIDTH && y * BRUME_DATA_WIDTH + x < values; ++x)
+            *at(blob_density_, x, y) = blob_density_at(camera_, settings_, SHADOW_PASSED, lights, y * BRUME_DATA_WIDTH + x);
+    });
+}
+
+brume_status CpuPasses::compose()
 {
     const float limit = frame_.scene->output_limit;
     return for_rows(services_, host_, "compose", state_.height, 8, [&](int y) {
@@ -136,24 +155,14 @@ brume_status Frame::compose()
 
 }  // namespace
 
-brume_status execute_cpu(const brume_services &services, brume_host host, State &state, const brume_plugin_frame &frame)
+brume_status make_cpu_passes(const brume_services &services, brume_host host, const State &state,
+                             const brume_plugin_frame &frame, std::unique_ptr<Passes> &out)
 {
-    const int lights = int(frame.scene->light_count);
-    if (state.lit)
-        if (brume_status s = refresh_lists(services, host, frame, state))
-            return s;
-    Frame f(services, host, state, frame);
-    if (brume_status s = f.map())
-        return s;
-    if (state.lit) {
-        if (brume_status s = f.gather(state.radiance, state.error, state.parameters.reduction, ivec2(0, lights)))
-            return s;
-    }
-    for (int l = 0; l < lights && frame.light_airlight; ++l)
-        if (frame.light_airlight[l])
-            if (brume_status s = f.gather(frame.light_airlight[l], nullptr, 1, state.lit ? ivec2(l, l + 1) : ivec2(0)))
-                return s;
-    return f.compose();
+    auto passes = std::make_unique<CpuPasses>(services, host, state, frame);
+    const brume_status s = passes->map();
+    if (!s)
+        out = std::move(passes);
+    return s;
 }
 
 }  // namespace airlight

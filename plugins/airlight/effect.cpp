@@ -1,4 +1,5 @@
 // airlight: what the scene's lights scatter once toward the camera (Zhou et al. 2007, Sun et al. 2005).
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -59,16 +60,10 @@ brume_status Planner::check_tier()
     if (tier != Tier::sun && tier != Tier::fogshop)
         return BRUME_OK;
     const std::string name = tier == Tier::sun ? "sun" : "fogshop";
-    if (m.term_count > 0)
-        return fail("tier: " + name + " with an exponential density term; expected tier nodes, which knows them");
-    if (tier == Tier::sun && scene_.gaussian_count > 0)
-        return fail("tier: sun with Gaussian density terms; expected fogshop or nodes: Sun et al. know homogeneous media only");
+    if (tier == Tier::sun && (m.term_count > 0 || scene_.gaussian_count > 0))
+        return fail("tier: sun in a medium that is not constant; expected tier nodes: Sun et al. know homogeneous media only");
     if (m.phase[0] != 0 || m.phase[3] != 0)
         return fail("tier: " + name + " with a phase function that is not isotropic; expected tier nodes, or g 0");
-    for (uint32_t i = 0; i < scene_.light_count; ++i)
-        if (scene_.lights[i].type != BRUME_LIGHT_POINT)
-            return fail("tier: " + name + " with lights[" + std::to_string(i) +
-                        "] of another type than point; expected tier nodes");
     return BRUME_OK;
 }
 
@@ -104,6 +99,10 @@ brume_status Planner::plan_gather()
             return s;
     if (brume_status s = plan_tables(services_, host_, scene_, state))
         return s;
+    if (state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0)
+        if (brume_status s = entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved",
+                                   0, 0))
+            return s;
     const double pixels = double(width) * height;
     // Per light: about 60 operations a node for each of the analytic terms.
     const double operations = scene_.light_count * 12.0 * (60 + 40 * scene_.medium.term_count + 800 * scene_.gaussian_count);
@@ -160,7 +159,28 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
 {
     State &state = *static_cast<State *>(opaque);
-    return state.compose ? execute_gl(*services, host, state, *frame) : execute_cpu(*services, host, state, *frame);
+    const int lights = state.lit ? int(frame->scene->light_count) : 0;
+    if (state.lit)
+        if (brume_status s = refresh_lists(*services, host, *frame, state))
+            return s;
+    std::unique_ptr<Passes> passes;
+    if (brume_status s = (state.compose ? make_gl_passes : make_cpu_passes)(*services, host, state, *frame, passes))
+        return s;
+    if (state.blobs_pending) {
+        if (brume_status s = passes->blobs())
+            return s;
+        state.blobs_pending = false;
+    }
+    if (state.lit)
+        if (brume_status s = passes->gather(
+                {state.radiance, state.error, state.distances, state.parameters.reduction, 0, lights, true}))
+            return s;
+    for (uint32_t l = 0; l < frame->scene->light_count && frame->light_airlight; ++l)
+        if (frame->light_airlight[l])
+            if (brume_status s = passes->gather({frame->light_airlight[l], nullptr, nullptr, 1, std::min(int(l), lights),
+                                                 std::min(int(l) + 1, lights), false}))
+                return s;
+    return passes->compose();
 }
 
 }  // namespace

@@ -32,7 +32,9 @@ brume_plugin_uniform pair(const char *name, const ivec2 &value)
 // `uniform AirlightSettings airlight`, member by member.
 std::vector<brume_plugin_uniform> settings_uniforms(const AirlightSettings &s)
 {
-    return {integer("airlight.light_count", s.light_count),
+    return {integer("airlight.tier", s.tier),
+            integer("airlight.environment_order", s.environment_order),
+            integer("airlight.light_count", s.light_count),
             integer("airlight.gaussian_count", s.gaussian_count),
             integer("airlight.smooth_nodes", s.smooth_nodes),
             integer("airlight.blob_nodes", s.blob_nodes),
@@ -43,18 +45,35 @@ std::vector<brume_plugin_uniform> settings_uniforms(const AirlightSettings &s)
             real("airlight.culled", s.culled)};
 }
 
-class Frame {
+class GlPasses : public Passes {
 public:
-    Frame(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
+    GlPasses(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
         : services_(services), host_(host), state_(state), frame_(frame), settings_(settings_of(state, *frame.scene))
     {
     }
 
-    brume_status gather(brume_plugin_image radiance, brume_plugin_image error, const int32_t &reduction,
-                        const ivec2 &light_range)
+    brume_status blobs() override
     {
+        const int values = settings_.gaussian_count * (1 + settings_.light_count);
+        return run("blobs", state_.blobs,
+                   {{"gaussians", frame_.gaussians, BRUME_ACCESS_FETCH, 0},
+                    {"lights", frame_.lights, BRUME_ACCESS_FETCH, 0},
+                    {"cells", state_.cells, BRUME_ACCESS_FETCH, 0},
+                    {"cell_gaussians", state_.cell_gaussians, BRUME_ACCESS_FETCH, 0},
+                    {"shadow_origins", state_.origins, BRUME_ACCESS_FETCH, 0},
+                    {"density", state_.blob_density, BRUME_ACCESS_WRITE, 0}},
+                   settings_uniforms(settings_), {BRUME_DATA_WIDTH, (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH});
+    }
+
+    brume_status gather(const Gathering &to) override
+    {
+        AirlightSettings settings = settings_;
+        if (!to.environment)
+            settings.environment_order = 0;
+        const ivec2 light_range(to.first_light, to.last_light);
+        const int32_t reduction = to.reduction;
         const ivec2 size(state_.width, state_.height);
-        auto uniforms = settings_uniforms(settings_);
+        auto uniforms = settings_uniforms(settings);
         uniforms.push_back(pair("size", size));
         uniforms.push_back(pair("light_range", light_range));
         uniforms.push_back(integer("reduction", reduction));
@@ -69,15 +88,16 @@ public:
                     {"cell_gaussians", state_.cell_gaussians, BRUME_ACCESS_FETCH, 0},
                     {"shadow_origins", state_.origins, BRUME_ACCESS_FETCH, 0},
                     {"blob_density", state_.blob_density, BRUME_ACCESS_FETCH, 0},
-                    {"sun_table", state_.table, BRUME_ACCESS_LINEAR, 0},
+                    {"sun_table", state_.sun_table, BRUME_ACCESS_FETCH, 0},
                     {"environment", state_.environment, BRUME_ACCESS_FETCH, 0},
-                    {"radiance", radiance, BRUME_ACCESS_WRITE, 0},
-                    {"error", error, BRUME_ACCESS_WRITE, 0},
-                    {"distances", reduction > 1 ? state_.distances : nullptr, BRUME_ACCESS_WRITE, 0}},
+                    {"environment_table", state_.environment_table, BRUME_ACCESS_FETCH, 0},
+                    {"radiance", to.radiance, BRUME_ACCESS_WRITE, 0},
+                    {"error", to.error, BRUME_ACCESS_WRITE, 0},
+                    {"distances", to.distances, BRUME_ACCESS_WRITE, 0}},
                    std::move(uniforms), (size + reduction - 1) / int(reduction));
     }
 
-    brume_status compose()
+    brume_status compose() override
     {
         const int32_t outputs = int32_t(frame_.outputs);
         return run("compose", state_.compose,
@@ -123,7 +143,10 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
         return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
     };
     if (state.radiance)
-        if (brume_status s = compile("airlight_gather.comp", define("TIER", uint32_t(state.parameters.tier)), state.gather))
+        if (brume_status s = compile("airlight_gather.comp", "", state.gather))
+            return s;
+    if (state.parameters.tier == Tier::fogshop)
+        if (brume_status s = compile("airlight_blobs.comp", "", state.blobs))
             return s;
     return compile("airlight_compose.comp",
                    define("LIT", state.lit) + define("ATTENUATES", state.attenuates) +
@@ -131,22 +154,11 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
                    state.compose);
 }
 
-brume_status execute_gl(const brume_services &services, brume_host host, State &state, const brume_plugin_frame &frame)
+brume_status make_gl_passes(const brume_services &services, brume_host host, const State &state,
+                            const brume_plugin_frame &frame, std::unique_ptr<Passes> &out)
 {
-    const int lights = int(frame.scene->light_count);
-    if (state.lit)
-        if (brume_status s = refresh_lists(services, host, frame, state))
-            return s;
-    Frame f(services, host, state, frame);
-    if (state.lit)
-        if (brume_status s = f.gather(state.radiance, state.error, state.parameters.reduction, ivec2(0, lights)))
-            return s;
-    for (int l = 0; l < lights && frame.light_airlight; ++l)
-        if (frame.light_airlight[l])
-            if (brume_status s =
-                    f.gather(frame.light_airlight[l], nullptr, 1, state.lit ? ivec2(l, l + 1) : ivec2(0)))
-                return s;
-    return f.compose();
+    out = std::make_unique<GlPasses>(services, host, state, frame);
+    return BRUME_OK;
 }
 
 }  // namespace airlight

@@ -31,6 +31,12 @@ brume_status refresh_lists(const brume_services &services, brume_host host, cons
         return s;
     if (brume_status s = upload(slot_cell_gaussians, 1, state.lists.cell_gaussians, state.cell_gaussians))
         return s;
+    if (state.parameters.tier == Tier::fogshop && scene.gaussian_count > 0) {
+        const std::vector<float> empty(size_t(scene.gaussian_count) * (1 + scene.light_count));
+        if (brume_status s = upload(slot_blob_density, 1, empty, state.blob_density))
+            return s;
+        state.blobs_pending = true;
+    }
     state.revision = scene.revision;
     state.camera = scene.camera;
     std::copy_n(scene.position, 3, state.position);

@@ -14,7 +14,7 @@ constexpr uint32_t own_outputs = BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTIC
                                  BRUME_OUTPUT_AIRLIGHT_ERROR | BRUME_OUTPUT_LIGHT_AIRLIGHT;
 
 // Slots of the data images.
-enum Slot : uint32_t { slot_origins, slot_cells, slot_cell_gaussians, slot_table, slot_environment };
+enum Slot : uint32_t { slot_origins, slot_cells, slot_cell_gaussians, slot_blob_density, slot_sun_table, slot_environment, slot_environment_table };
 
 // What one plan of this effect holds. Images that a plan does not need are NULL.
 struct State {
@@ -26,13 +26,15 @@ struct State {
     brume_plugin_image radiance = nullptr;   // airlight of one pixel per square
     brume_plugin_image error = nullptr;      // its estimated error
     brume_plugin_image distances = nullptr;  // of those pixels; where they are fewer than the image's
-    brume_plugin_image table = nullptr;        // F(u, v) of Sun et al.
-    brume_plugin_image environment = nullptr;  // c_l(T), and the environment's coefficients
+    brume_plugin_image sun_table = nullptr;
+    brume_plugin_image environment = nullptr;  // its coefficients
+    brume_plugin_image environment_table = nullptr;
+    int environment_order = 0;
 
     // Refreshed when something moved.
     brume_plugin_image origins = nullptr, cells = nullptr, cell_gaussians = nullptr;
-    brume_plugin_image blob_density = nullptr;
-    int blob_rows = 0;
+    brume_plugin_image blob_density = nullptr;  // tier fogshop
+    bool blobs_pending = false;                 // its pass has to run
     ShadowLists lists;
     uint64_t revision = 0;
     brume_plugin_camera camera{};
@@ -40,6 +42,7 @@ struct State {
     bool listed = false;
 
     // GL programs; NULL on the CPU.
+    brume_program blobs = nullptr;
     brume_program gather = nullptr;
     brume_program compose = nullptr;
 };

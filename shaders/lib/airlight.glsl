@@ -16,6 +16,7 @@ struct AirlightSettings {
     int near_nodes;     // the same where the light is within near_radii
     int dense_nodes;    // per light, for all that a long list holds
     int dense_from;     // lists of more Gaussians are integrated as one
+    int environment_order; // of the spherical harmonics, 0 (none) to 6
     float near_radii;
     float culled;       // [m at unit density] at most missing from the lists, per path
 };
@@ -33,8 +34,10 @@ struct Sight {
     int count;
 };
 
-#define AIRLIGHT_IMAGES SHADOW_IMAGES, sampler2D lights, sampler2D tile_gaussians
-#define AIRLIGHT_PASSED SHADOW_PASSED, lights, tile_gaussians
+// blob_density: texel i (1 + light_count) + k is int rho dt of all Gaussians between origin k (shadow.glsl) and the centre of
+// Gaussian i. sun_table: airlight_sun.glsl.
+#define AIRLIGHT_IMAGES SHADOW_IMAGES, sampler2D lights, sampler2D tile_gaussians, sampler2D blob_density, sampler2D sun_table
+#define AIRLIGHT_PASSED SHADOW_PASSED, lights, tile_gaussians, blob_density, sun_table
 
 // Bounds what a light of no size does at its own place.
 const float smallest_light = R(1e-6);       // [m]
@@ -60,7 +63,7 @@ PURE Gaussian listed_gaussian(sampler2D gaussians, sampler2D tile_gaussians, IN(
 }
 
 // P(v, x(t)) of all terms.
-PURE float density_to(IN(Medium) medium, sampler2D gaussians, sampler2D tile_gaussians, IN(Sight) sight, float t)
+PURE float sight_density(IN(Medium) medium, sampler2D gaussians, sampler2D tile_gaussians, IN(Sight) sight, float t)
 {
     float p = density_integral(medium, sight.direction, t);
     for (int i = 0; i < sight.count; ++i) {

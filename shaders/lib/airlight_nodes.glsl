@@ -21,7 +21,7 @@ PURE Airlight airlight_by_nodes(IN(Medium) medium, IN(Camera) camera, IN(Airligh
             float t = clamp(t0 + h * tan(a), lit.x, lit.y);
             float dt = span * h / (cos(a) * cos(a));
             float rho = density_at(medium, t * sight.direction);
-            float p = density_to(medium, gaussians, tile_gaussians, sight, t);
+            float p = sight_density(medium, gaussians, tile_gaussians, sight, t);
             sum += node.y * dt * rho * medium.scattering * turned_light(medium, camera, SHADOW_PASSED, sight, l, light, t, p);
         }
     }

@@ -1,8 +1,10 @@
-// One pixel's airlight in the tier that the plan chose: the body of the effect's gathering pass. Needs tiers.glsl,
-// upsample.glsl, environment.glsl and the tiers' files.
+// The bodies of the effect's passes. Needs tiles.glsl, upsample.glsl, environment.glsl and the tiers' files.
 
-#define AIRLIGHT_PIXEL_IMAGES sampler2D depth, sampler2D gaussian_density, sampler2D tiles, AIRLIGHT_IMAGES
-#define AIRLIGHT_PIXEL_PASSED depth, gaussian_density, tiles, AIRLIGHT_PASSED
+#define AIRLIGHT_PIXEL_IMAGES sampler2D depth, sampler2D gaussian_density, sampler2D tiles, AIRLIGHT_IMAGES, \
+                              sampler2D environment, sampler2D environment_table
+#define AIRLIGHT_PIXEL_PASSED depth, gaussian_density, tiles, AIRLIGHT_PASSED, environment, environment_table
+
+// One pixel's airlight of some lights and, with the first of them, of the environment.
 
 PURE Airlight airlight_at(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_PIXEL_IMAGES,
                           ivec2 pixel, ivec2 size, ivec2 light_range)
@@ -12,5 +14,22 @@ PURE Airlight airlight_at(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetti
         return Airlight(vec3(R(0.0)), vec3(R(0.0)));
     ivec2 range = settings.gaussian_count > 0 ? tile_range(tiles, size.x, pixel) : ivec2(0);
     Sight sight = Sight(ray.direction, ray.distance, range.x, range.y);
-    return airlight_by_nodes(medium, camera, settings, AIRLIGHT_PASSED, sight, light_range.x, light_range.y);
+    Airlight a = airlight_of_tier(settings.tier, medium, camera, settings, AIRLIGHT_PASSED, sight, light_range.x, light_range.y);
+    if (settings.environment_order > 0) {
+        float gaussian_part = settings.gaussian_count > 0 ? texelFetch(gaussian_density, pixel, 0).x : R(0.0);
+        a.radiance += environment_airlight(medium, camera, environment, environment_table, settings.environment_order,
+                                           ray.direction, density_to(medium, ray, gaussian_part));
+    }
+    return a;
+}
+
+// Texel i of blob_density.
+PURE float blob_density_at(IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES, sampler2D lights, int i)
+{
+    int origins = 1 + settings.light_count;
+    vec3 center = gaussian_at(gaussians, i / origins).center;
+    int light = i % origins - 1;
+    if (light < 0)
+        return camera_density(SHADOW_PASSED, camera, center);
+    return shadow_density(SHADOW_PASSED, camera, light, light_at(lights, light), center);
 }

@@ -1,4 +1,3 @@
-// TIER is set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"
@@ -12,7 +11,11 @@
 #include "shadow.glsl"
 #include "quadrature.glsl"
 #include "airlight.glsl"
+#include "airlight_sun.glsl"
+#include "airlight_fogshop.glsl"
 #include "airlight_nodes.glsl"
+#include "airlight_tiers.glsl"
+#include "environment.glsl"
 #include "airlight_pixel.glsl"
 
 uniform Medium brume_medium;
@@ -31,6 +34,9 @@ uniform sampler2D cells;
 uniform sampler2D cell_gaussians;
 uniform sampler2D shadow_origins;
 uniform sampler2D blob_density;
+uniform sampler2D sun_table;
+uniform sampler2D environment;
+uniform sampler2D environment_table;
 writeonly uniform image2D radiance;
 writeonly uniform image2D error;
 writeonly uniform image2D distances;

@@ -1,0 +1,70 @@
+// Distant light from all around, scattered once (Zhou et al. 2007 eq. 28). Needs radiance.glsl, data.glsl.
+//
+// The paper's six coefficients of NPSF hold at the optical depth T = 1 only (46 % low at T = .05, 95 % high at 4 for l = 0);
+// these are tabulated over T. environment_table: entry k of environment_table_size has its c_0 .. c_3 and c_4, c_5 in texels
+// 2 k and 2 k + 1, each times sqrt(4 pi / (2 l + 1)) / (T e^-T), at T = environment_thinnest 2^(k / 4).
+
+const int environment_table_size = 81;
+const float environment_thinnest = R(1e-4);  // the ratio is constant below; the last entry is at T = 105
+
+// c_l(T) sqrt(4 pi / (2 l + 1)), l = 0 .. 3 or 4, 5: what convolution by the medium multiplies degree l by.
+PURE vec4 environment_factors(sampler2D environment_table, float depth, int upper)
+{
+    float x = clamp(R(4.0) * log2(max(depth, environment_thinnest) / environment_thinnest), R(0.0),
+                    float(environment_table_size - 1));
+    int k = min(int(x), environment_table_size - 2);
+    vec4 a = data_texel(environment_table, 2 * k + upper);
+    vec4 b = data_texel(environment_table, 2 * k + 2 + upper);
+    return mix(a, b, x - float(k)) * (depth * exp(-depth));
+}
+
+// Airlight of the environment where the density integral to what the pixel shows is `density`, colour by colour, times the
+// albedo. environment: real spherical harmonics in world axes, orthonormal, without the Condon-Shortley phase, texel
+// l^2 + l + m for degrees l < order <= 6. Never negative, as their ringing would have it.
+PURE vec3 environment_airlight(IN(Medium) medium, IN(Camera) camera, sampler2D environment, sampler2D environment_table,
+                               int order, vec3 direction, float density)
+{
+    vec3 d = in_world(camera, direction);
+    vec3 degree[6] = {vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0))};
+    float diagonal = R(0.282094791774);  // Y_mm = diagonal * Re or Im (x + i y)^m
+    float re = R(1.0);
+    float im = R(0.0);
+    for (int m = 0; m < order; ++m) {
+        if (m > 0) {
+            diagonal *= sqrt(float(2 * m + 1) / float(2 * m)) * (m == 1 ? R(1.41421356237) : R(1.0));
+            float next = re * d.x - im * d.y;
+            im = re * d.y + im * d.x;
+            re = next;
+        }
+        float before = R(0.0);
+        float value = diagonal;
+        for (int l = m; l < order; ++l) {
+            if (l > m) {
+                float span = float(l * l - m * m);
+                float a = sqrt(float(4 * l * l - 1) / span);
+                float b = sqrt(float((l - 1) * (l - 1) - m * m) * float(2 * l + 1) / (float(max(2 * l - 3, 1)) * span));
+                float next = a * d.z * value - b * before;
+                before = value;
+                value = next;
+            }
+            vec4 c = data_texel(environment, l * l + l + m);
+            vec3 coefficient = re * vec3(c.x, c.y, c.z);
+            if (m > 0) {
+                vec4 s = data_texel(environment, l * l + l - m);
+                coefficient += im * vec3(s.x, s.y, s.z);
+            }
+            degree[l] += value * coefficient;
+        }
+    }
+    vec3 t = min(optical_depth(medium, density), vec3(density_limit));
+    vec3 extinction = medium.scattering + medium.absorption;
+    vec3 sum = vec3(R(0.0));
+    for (int c = 0; c < 3; ++c) {
+        vec4 low = environment_factors(environment_table, t[c], 0);
+        vec4 high = environment_factors(environment_table, t[c], 1);
+        for (int l = 0; l < order; ++l)
+            sum[c] += degree[l][c] * (l < 4 ? low[l] : high[l - 4]);
+        sum[c] = max(sum[c], R(0.0)) * medium.scattering[c] / max(extinction[c], R(1e-30));
+    }
+    return sum;
+}
