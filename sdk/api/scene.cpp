@@ -196,13 +196,26 @@ brume_status brume_scene_set_environment(brume_scene handle, const double *coeff
     });
 }
 
-size_t brume_scene_environment_file(brume_scene handle, uint32_t *up, char *buffer, size_t capacity)
+size_t brume_scene_environment_file(brume_scene scene, char *buffer, size_t capacity)
 {
-    static const Environment none;
-    const Environment &environment = handle ? handle->scene.environment : none;
-    if (up)
-        *up = environment.file_up;
-    return copy_text(environment.file, buffer, capacity);
+    return copy_text(scene ? scene->scene.environment.file : "", buffer, capacity);
+}
+
+brume_status brume_scene_get_info(brume_scene handle, brume_scene_info *out)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        brume_scene_info info = BRUME_SCENE_INFO_INIT;
+        info.light_count = uint32_t(scene.lights.size());
+        if (scene.medium) {
+            size_t gaussians = scene.medium->gaussians.size();
+            for (const GaussianSet &set : scene.medium->gaussian_sets)
+                gaussians += set.fixed ? set.fixed->size() : 0;
+            info.gaussian_count = uint32_t(std::min<size_t>(gaussians, UINT32_MAX));
+        }
+        info.environment_count = uint32_t(scene.environment.coefficients.size());
+        info.environment_up = scene.environment.file_up;
+        write_struct(out, info, "brume_scene_info");
+    });
 }
 
 brume_status brume_scene_set_camera(brume_scene handle, const brume_camera *given)

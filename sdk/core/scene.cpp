@@ -133,14 +133,6 @@ void evaluate_density(const Scene &scene, const FrameValues &values, const std::
     out.constant = float(std::min(constant, double(FLT_MAX)));
 }
 
-// Stands for Gaussians of which only a frame tells: unit density wherever one looks.
-std::shared_ptr<const std::vector<Gaussian>> unknown_gaussians()
-{
-    Gaussian everywhere;
-    everywhere.scale = ranges::positive.minimum;
-    return std::make_shared<const std::vector<Gaussian>>(1, everywhere);
-}
-
 }  // namespace
 
 double Number::at(double frame) const
@@ -193,13 +185,8 @@ Scene with_peak_medium(Scene scene)
         peak(term.value);
     for (GaussianTerm &term : medium.gaussians)
         peak(term.amplitude);
-    for (GaussianSet &set : medium.gaussian_sets) {
+    for (GaussianSet &set : medium.gaussian_sets)
         peak(set.amplitude);
-        if (set.frames) {
-            set.frames.reset();
-            set.fixed = unknown_gaussians();
-        }
-    }
     return scene;
 }
 

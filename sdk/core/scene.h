@@ -117,7 +117,6 @@ std::string scene_schema(const EffectRegistry &effects);
 bool pose_matters(const Scene &scene);
 
 // The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
-// Gaussians of a file per frame are taken for unit density everywhere.
 Scene with_peak_medium(Scene scene);
 
 // Scene values at one frame, camera-relative, as effects see them. Throw Error(BRUME_ERROR_ARGUMENT) where values

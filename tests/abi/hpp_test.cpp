@@ -96,6 +96,7 @@ TEST(Hpp, SetsAScene)
     scene.set_environment({});
     EXPECT_THROW(scene.set_environment({{1, 1, 1}, {1, 1, 1}}), brume::Error);
     EXPECT_EQ(scene.environment_file(), "");
+    EXPECT_EQ(scene.info().gaussian_count, 3u);
     scene.remove_medium();
     EXPECT_TRUE(brume::Plan(scene, brume::format(32, 32)).info().does_nothing);
 }

@@ -95,6 +95,14 @@ FIELD(brume_medium, gaussians, 112, 8);
 FIELD(brume_medium, gaussian_count, 120, 4);
 FIELD(brume_medium, reserved, 124, 4);
 
+SIZE(brume_scene_info, 24);
+FIELD(brume_scene_info, struct_size, 0, 4);
+FIELD(brume_scene_info, light_count, 4, 4);
+FIELD(brume_scene_info, gaussian_count, 8, 4);
+FIELD(brume_scene_info, environment_count, 12, 4);
+FIELD(brume_scene_info, environment_up, 16, 4);
+FIELD(brume_scene_info, reserved, 20, 4);
+
 SIZE(brume_camera, 168);
 FIELD(brume_camera, struct_size, 0, 4);
 FIELD(brume_camera, given, 4, 4);
@@ -254,6 +262,7 @@ void brume_test_initialisers(void)
   brume_gaussian gaussian = BRUME_GAUSSIAN_INIT;
   brume_light light = BRUME_LIGHT_INIT;
   brume_medium medium = BRUME_MEDIUM_INIT;
+  brume_scene_info scene_info = BRUME_SCENE_INFO_INIT;
   brume_camera camera = BRUME_CAMERA_INIT;
   brume_format format = BRUME_FORMAT_INIT;
   brume_plan_info plan_info = BRUME_PLAN_INFO_INIT;
@@ -270,7 +279,7 @@ void brume_test_initialisers(void)
   brume_media_airbrush media_airbrush = BRUME_MEDIA_AIRBRUSH_INIT;
   (void)context_desc, (void)context_info, (void)effect_info, (void)parameter_info, (void)density_term, (void)medium;
   (void)camera, (void)format, (void)plan_info, (void)plan_entry, (void)image, (void)extra_output, (void)frame;
-  (void)gaussian, (void)light;
+  (void)gaussian, (void)light, (void)scene_info;
   (void)media_info, (void)media_view, (void)media_stroke, (void)media_paint, (void)media_erase, (void)media_emitter;
   (void)media_airbrush;
 }

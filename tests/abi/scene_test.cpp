@@ -10,6 +10,12 @@ protected:
     Context context = make_context();
     Scene scene = make_scene(context, R"({"brume": 1})");
 
+    brume_scene_info info_of(brume_scene of)
+    {
+        brume_scene_info info = BRUME_SCENE_INFO_INIT;
+        EXPECT_EQ(brume_scene_get_info(of, &info), BRUME_OK) << message(context.get());
+        return info;
+    }
     void refused(brume_status status, const std::string &named)
     {
         expect_status(context.get(), status, BRUME_ERROR_ARGUMENT, named);
@@ -171,26 +177,44 @@ TEST_F(SceneCalls, EnvironmentRefusesNonsense)
 
 TEST_F(SceneCalls, EnvironmentFileIsToldUntilItIsResolved)
 {
-    const auto named = [](brume_scene of, uint32_t *up) {
-        std::string name(brume_scene_environment_file(of, up, nullptr, 0), '#');
-        brume_scene_environment_file(of, nullptr, name.data(), name.size());
+    const auto named = [](brume_scene of) {
+        std::string name(brume_scene_environment_file(of, nullptr, 0), '#');
+        brume_scene_environment_file(of, name.data(), name.size());
         name.pop_back();
         return name;
     };
-    uint32_t up = 7;
-    EXPECT_EQ(named(scene.get(), &up), "");
-    EXPECT_EQ(up, BRUME_UP_Y);
-    EXPECT_EQ(named(nullptr, &up), "");
+    EXPECT_EQ(named(scene.get()), "");
+    EXPECT_EQ(named(nullptr), "");
 
     const std::string text = R"({"brume": 1, "environment": {"file": "sky.exr", "up": "z"}})";
     brume_scene made = nullptr;
     ASSERT_EQ(brume_scene_create_from_text(context.get(), text.data(), text.size(), "shots/fog.json", &made), BRUME_OK);
     const Scene owned(made);
-    EXPECT_EQ(named(made, &up), "shots/sky.exr");
-    EXPECT_EQ(up, BRUME_UP_Z);
+    EXPECT_EQ(named(made), "shots/sky.exr");
+    EXPECT_EQ(info_of(made).environment_up, BRUME_UP_Z);
+    EXPECT_EQ(info_of(made).environment_count, 0u);
     const double grey[] = {1, 1, 1};
     EXPECT_EQ(brume_scene_set_environment(made, grey, 1), BRUME_OK);
-    EXPECT_EQ(named(made, &up), "");
+    EXPECT_EQ(named(made), "");
+    EXPECT_EQ(info_of(made).environment_count, 1u);
+}
+
+TEST_F(SceneCalls, InfoCounts)
+{
+    EXPECT_EQ(info_of(scene.get()).light_count, 0u);
+    EXPECT_EQ(info_of(scene.get()).gaussian_count, 0u);
+    EXPECT_EQ(info_of(scene.get()).environment_up, BRUME_UP_Y);
+    const brume_light lights[] = {BRUME_LIGHT_INIT, BRUME_LIGHT_INIT};
+    const brume_gaussian gaussians[] = {BRUME_GAUSSIAN_INIT, BRUME_GAUSSIAN_INIT, BRUME_GAUSSIAN_INIT};
+    brume_medium medium = BRUME_MEDIUM_INIT;
+    medium.gaussians = gaussians;
+    medium.gaussian_count = 3;
+    EXPECT_EQ(brume_scene_set_medium(scene.get(), &medium), BRUME_OK);
+    EXPECT_EQ(brume_scene_set_lights(scene.get(), lights, 2), BRUME_OK);
+    EXPECT_EQ(info_of(scene.get()).light_count, 2u);
+    EXPECT_EQ(info_of(scene.get()).gaussian_count, 3u);
+    EXPECT_EQ(brume_scene_get_info(nullptr, nullptr), BRUME_ERROR_ARGUMENT);
+    EXPECT_EQ(brume_scene_get_info(scene.get(), nullptr), BRUME_ERROR_ARGUMENT);
 }
 
 TEST_F(SceneCalls, CameraRefusesNonsense)

@@ -172,6 +172,8 @@ TEST_F(StructSize, OfResults)
     check_sizes<brume_parameter_info>(context.get(), BRUME_PARAMETER_INFO_INIT, [&](auto *info) {
         return brume_parameter_get_info(context.get(), "multiscatter", 0, info);
     });
+    check_sizes<brume_scene_info>(context.get(), BRUME_SCENE_INFO_INIT,
+                                  [&](auto *info) { return brume_scene_get_info(scene.get(), info); });
     check_sizes<brume_plan_info>(context.get(), BRUME_PLAN_INFO_INIT,
                                  [&](auto *info) { return brume_plan_get_info(plan.get(), info); });
     check_sizes<brume_plan_entry>(context.get(), BRUME_PLAN_ENTRY_INIT,

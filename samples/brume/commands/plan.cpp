@@ -55,6 +55,9 @@ int plan(const PlanOptions &options)
                            {"predicted_ms", e.predicted_ms}});
     }
     const ordered_json out{{"scene", options.fog.scene},
+                           {"lights", fogger.scene_info().light_count},
+                           {"gaussians", fogger.scene_info().gaussian_count},
+                           {"environment", fogger.scene_info().environment_count},
                            {"input", first.input.string()},
                            {"backend", backend_name(device.backend)},
                            {"device", device.device},
@@ -73,6 +76,8 @@ int plan(const PlanOptions &options)
     const PartInfo &part = open.file.parts()[open.color.part];
     fmt::print("{} x {} pixels on {} ({})\n", part.width(), part.height(), backend_name(device.backend), device.device);
     fmt::print("colour {}; depth {}\n", open.color.label(), open.depth.channel);
+    fmt::print("{} lights; {} Gaussians; {} coefficients of the environment\n", out["lights"].get<int>(),
+               out["gaussians"].get<int>(), out["environment"].get<int>());
     for (const auto &e : entries) {
         const std::string name = fmt::format("{}/{}", e["effect"].get<std::string>(), e["pass"].get<std::string>());
         const std::string cost =

@@ -7,23 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "environment/environment.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
 namespace {
-
-struct ExtraOutput {
-    const char *name;
-    std::uint32_t flag;
-    int channels;
-    Imf::PixelType type;
-};
-
-// Optical depth runs to 1e30 for sky in an endless medium, far past half.
-constexpr ExtraOutput kExtraOutputs[] = {{"transmittance", BRUME_OUTPUT_TRANSMITTANCE, 3, Imf::HALF},
-                                         {"optical_depth", BRUME_OUTPUT_OPTICAL_DEPTH, 3, Imf::FLOAT},
-                                         {"scattered", BRUME_OUTPUT_SCATTERED, 3, Imf::HALF},
-                                         {"blur_radius", BRUME_OUTPUT_BLUR_RADIUS, 1, Imf::HALF}};
 
 /// A plan holds its images; a sequence with a moving data window meets a new format with every frame.
 constexpr std::size_t kMostPlans = 4;
@@ -70,34 +58,14 @@ void FogOptions::add_to(CLI::App &command)
     command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")
         ->type_name("EFFECT.PARAM=VALUE")
         ->allow_extra_args(false);
-    command
-        .add_option("--layers", layers,
-                    "Also write these as brume.NAME: transmittance, optical_depth, scattered, blur_radius")
+    command.add_option("--layers", layers, "Also write these as brume.NAME: " + known_layers())
         ->delimiter(',')
         ->type_name("NAME,...")
         ->allow_extra_args(false);
     picture.add_to(command);
 }
 
-std::uint32_t output_flags(const std::vector<std::string> &layers)
-{
-    std::uint32_t flags = 0;
-    for (const std::string &layer : layers) {
-        std::uint32_t flag = 0;
-        std::string known;
-        for (const ExtraOutput &output : kExtraOutputs) {
-            if (layer == output.name)
-                flag = output.flag;
-            known += fmt::format("{}{}", known.empty() ? "" : ", ", output.name);
-        }
-        if (!flag)
-            throw RequestError(fmt::format("--layers '{}': expected some of {}", layer, known));
-        flags |= flag;
-    }
-    return flags;
-}
-
-Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(output_flags(options.layers))
+Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_layers(options.layers))
 {
     const std::string text = read_text(options.scene);
     options.picture.depth_kind();
@@ -118,6 +86,12 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(output_f
                       "--set " + set);
     }
     check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
+    resolve_environment(context_.get(), scene);
+    check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
+    for (const LayerOutput &output : outputs_)
+        if (output.flag == BRUME_OUTPUT_LIGHT_AIRLIGHT && output.light >= scene_info_.light_count)
+            throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected light0 to the last of them",
+                                           output.name, options.scene, scene_info_.light_count));
 }
 
 Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
@@ -144,7 +118,8 @@ Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) cons
     constexpr std::uint32_t skies[] = {BRUME_SKY_FOG, BRUME_SKY_KEEP, BRUME_SKY_CLAMP};
     shot.format.sky = skies[sky.type];
     shot.format.sky_distance = sky.distance;
-    shot.format.outputs = outputs_;
+    for (const LayerOutput &output : outputs_)
+        shot.format.outputs |= output.flag;
 
     Camera camera = options_.picture.camera_asked(header);
     Camera metadata = camera_from_metadata(header);
@@ -211,18 +186,17 @@ try {
 
     std::vector<brume_image> images;
     std::vector<brume_extra_output> extra;
-    images.reserve(std::size(kExtraOutputs));
+    images.reserve(outputs_.size());
     layers.clear();
-    layers.reserve(std::size(kExtraOutputs));
-    for (const ExtraOutput &output : kExtraOutputs) {
-        if (!(outputs_ & output.flag))
-            continue;
+    layers.reserve(outputs_.size());
+    for (const LayerOutput &output : outputs_) {
         layers.push_back({output.name, output.channels, output.type, {}});
         layers.back().pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * std::size_t(output.channels));
         images.push_back(host_image(layers.back().pixels.data(), frame.width, frame.height, output.channels));
         brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
         wanted.output = output.flag;
         wanted.image = &images.back();
+        wanted.light = output.light;
         extra.push_back(wanted);
     }
 

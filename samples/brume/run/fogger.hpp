@@ -8,6 +8,7 @@
 #include "exr/frame.hpp"
 #include "exr/write.hpp"
 #include "metrics/metrics.hpp"
+#include "run/layers.hpp"
 #include "run/sdk.hpp"
 
 namespace brume::tool {
@@ -45,6 +46,7 @@ public:
     FogReport fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers);
 
     brume_context context() const { return context_.get(); }
+    const brume_scene_info &scene_info() const { return scene_info_; }
 
 private:
     struct Shot;
@@ -54,11 +56,9 @@ private:
     ContextHandle context_;
     SceneHandle scene_;
     std::uint32_t scene_camera_ = 0;
-    std::uint32_t outputs_ = 0;
+    brume_scene_info scene_info_ = BRUME_SCENE_INFO_INIT;
+    std::vector<LayerOutput> outputs_;
     std::map<std::vector<double>, PlanHandle> plans_;
 };
-
-/// Reads and checks --layers: the flags of the extra outputs named.
-std::uint32_t output_flags(const std::vector<std::string> &layers);
 
 }  // namespace brume::tool

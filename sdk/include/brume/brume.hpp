@@ -156,11 +156,16 @@ public:
         const double *first = coefficients.empty() ? nullptr : coefficients.front().data();
         context_.check(brume_scene_set_environment(get(), first, detail::count(coefficients)));
     }
-    // "" where the scene's text names none or its coefficients are set.
-    std::string environment_file(std::uint32_t *up = nullptr) const
+    std::string environment_file() const
     {
         return detail::copied_text(
-            [&](char *to, std::size_t size) { return brume_scene_environment_file(get(), up, to, size); });
+            [&](char *to, std::size_t size) { return brume_scene_environment_file(get(), to, size); });
+    }
+    brume_scene_info info() const
+    {
+        brume_scene_info info = BRUME_SCENE_INFO_INIT;
+        context_.check(brume_scene_get_info(get(), &info));
+        return info;
     }
     void set_camera(const brume_camera &camera) { context_.check(brume_scene_set_camera(get(), &camera)); }
     void set_metres_per_unit(double metres) { context_.check(brume_scene_set_metres_per_unit(get(), metres)); }

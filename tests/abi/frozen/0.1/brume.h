@@ -268,13 +268,9 @@ BRUME_API brume_status brume_scene_set_lights(brume_scene scene, const brume_lig
    Y_1m = .4886 (y, z, x). */
 BRUME_API brume_status brume_scene_set_environment(brume_scene scene, const double *coefficients, uint32_t count);
 
-#define BRUME_UP_Y 0u /* the centre of a lat-long image is toward -z */
-#define BRUME_UP_Z 1u /* toward +y */
-
 /* The lat-long environment image that the scene's text names, which the library does not read; "" if none. Copied as
-   brume_message does. Its top row is toward the world axis `up` (BRUME_UP_..., may be NULL) and to the right of its centre is
-   +x. Planning such a scene fails until brume_scene_set_environment gives its coefficients. */
-BRUME_API size_t brume_scene_environment_file(brume_scene scene, uint32_t *up, char *buffer, size_t capacity);
+   brume_message does. Planning such a scene fails until brume_scene_set_environment gives its coefficients. */
+BRUME_API size_t brume_scene_environment_file(brume_scene scene, char *buffer, size_t capacity);
 
 #define BRUME_CAMERA_FIELD_OF_VIEW 1u /* vertical_fov, pixel_aspect and center are given */
 #define BRUME_CAMERA_POSE 2u          /* camera_to_world is given */
@@ -308,6 +304,21 @@ BRUME_API brume_status brume_scene_set_luminance_weights(brume_scene scene, cons
    effects. */
 BRUME_API brume_status brume_scene_set_text(brume_scene scene, const char *effect, const char *parameter, const char *value);
 BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *effect, const char *parameter, double value);
+
+#define BRUME_UP_Y 0u /* the centre of a lat-long image is toward -z of the world, and +x to the right of it */
+#define BRUME_UP_Z 1u /* toward +y, and +x to the right of it */
+
+typedef struct brume_scene_info {
+  uint32_t struct_size;
+  uint32_t light_count;
+  uint32_t gaussian_count;    /* without those of files that are read at each frame */
+  uint32_t environment_count; /* of spherical-harmonic coefficients */
+  uint32_t environment_up;    /* where the top of the environment image is: BRUME_UP_... */
+  uint32_t reserved;
+} brume_scene_info;
+#define BRUME_SCENE_INFO_INIT {(uint32_t)sizeof(brume_scene_info), 0u, 0u, 0u, 0u, 0u}
+
+BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info *info);
 
 /* ---- plan -------------------------------------------------------------------------------------------------------- */
 
