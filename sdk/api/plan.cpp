@@ -1,7 +1,10 @@
+#include <bit>
 #include <cmath>
+#include <vector>
 
 #include "api/handles.h"
 #include "api/structs.h"
+#include "core/effects.h"
 
 using namespace brume;
 using namespace brume::api;
@@ -14,6 +17,9 @@ brume_camera read_camera(const brume_camera *given, const char *name)
     return read_struct(given, camera, name, &brume_camera::given, &brume_camera::vertical_fov, &brume_camera::pixel_aspect,
                        &brume_camera::center, &brume_camera::camera_to_world);
 }
+
+// Each flag once, and that of lights once for each of them.
+constexpr uint32_t most_extras = uint32_t(std::popcount(known_outputs)) - 1 + BRUME_MAX_LIGHTS;
 
 brume_format read_format(const brume_format *given)
 {
@@ -31,7 +37,7 @@ brume_format read_format(const brume_format *given)
     expect(format.depth_kind <= BRUME_DEPTH_DEVICE, "brume_format.depth_kind: expected a BRUME_DEPTH_...");
     expect(format.sky <= BRUME_SKY_CLAMP, "brume_format.sky: expected a BRUME_SKY_...");
     expect(format.nonpositive <= BRUME_NONPOSITIVE_NEAR, "brume_format.nonpositive: expected a BRUME_NONPOSITIVE_...");
-    expect(format.outputs < 16, "brume_format.outputs: expected BRUME_OUTPUT_... flags");
+    expect((format.outputs & ~known_outputs) == 0, "brume_format.outputs: expected BRUME_OUTPUT_... flags");
     expect(format.far_distance > 0, "brume_format.far_distance: expected a positive number");
     bool device = format.depth_kind == BRUME_DEPTH_DEVICE;
     if (device || format.depth_kind == BRUME_DEPTH_NORMALIZED)
@@ -163,20 +169,20 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
             camera = read_camera(frame.camera, "camera");
             frame.camera = &camera;
         }
-        expect(frame.extra_count <= 4, "brume_frame.extra_count: expected 0 to 4");
+        if (frame.extra_count > most_extras)
+            throw Error(BRUME_ERROR_ARGUMENT, "brume_frame.extra_count: " + std::to_string(frame.extra_count) +
+                                                  "; expected 0 to " + std::to_string(most_extras));
         expect(frame.extra || frame.extra_count == 0, "brume_frame.extra: NULL with an extra_count above 0");
-        brume_extra_output extras[4];
-        brume_image images[4];
-        auto bytes = reinterpret_cast<const unsigned char *>(frame.extra);
+        std::vector<brume_extra_output> extras(frame.extra_count);
+        std::vector<brume_image> images(frame.extra_count);
         for (uint32_t i = 0; i < frame.extra_count; ++i) {
             std::string name = "extra[" + std::to_string(i) + "]";
-            auto source = reinterpret_cast<const brume_extra_output *>(bytes + i * size_t(frame.extra->struct_size));
-            extras[i] = read_struct(source, brume_extra_output BRUME_EXTRA_OUTPUT_INIT, name.c_str(),
-                                    &brume_extra_output::output, &brume_extra_output::image);
+            extras[i] = read_struct(element(frame.extra, i), brume_extra_output BRUME_EXTRA_OUTPUT_INIT, name.c_str(),
+                                    &brume_extra_output::output, &brume_extra_output::image, &brume_extra_output::light);
             images[i] = read_image(extras[i].image, (name + ".image").c_str());
             extras[i].image = &images[i];
         }
-        frame.extra = extras;
+        frame.extra = extras.data();
         plan.execute(frame);
     });
 }

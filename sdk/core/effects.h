@@ -9,6 +9,10 @@
 
 namespace brume {
 
+inline constexpr uint32_t known_outputs = BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED |
+                                          BRUME_OUTPUT_BLUR_RADIUS | BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR |
+                                          BRUME_OUTPUT_LIGHT_AIRLIGHT;
+
 // One parameter of an effect's table, checked and copied so that a plugin's memory cannot surprise us.
 struct Parameter {
     std::string name, unit, help;

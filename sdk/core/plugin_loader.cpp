@@ -20,9 +20,6 @@ constexpr uint32_t largest_struct = 1024;
 constexpr uint32_t most_parameters = 256;
 constexpr size_t longest_name = 63;
 constexpr size_t longest_text = 4095;
-constexpr uint32_t known_outputs =
-    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS |
-    BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR | BRUME_OUTPUT_LIGHT_AIRLIGHT;
 constexpr double largest_integer = 9007199254740992.0;  // 2^53: beyond it a double skips integers
 
 struct Refusal : std::runtime_error {

@@ -235,3 +235,40 @@ TEST_P(Outputs, DepthKindsAgree)
                     << "kind " << kind.kind << " range " << kind.range[0] << " at " << x << ", " << y;
     }
 }
+
+TEST_P(Outputs, OfLightsOnePicturePerLight)
+{
+    Scene scene = make_scene(context, R"({"brume": 1, "medium": {"scattering": 0.05}, "camera": {"vertical_fov": 50,
+        "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}, "effects": {"airlight": {}}, "lights": [
+        {"type": "point", "position": [1,0,-9], "intensity": [30,0,0]},
+        {"type": "point", "position": [-1,0,-9], "intensity": [0,30,0]}]})");
+    Plan plan =
+        make_plan(context, scene, ray_format(width, height, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_LIGHT_AIRLIGHT));
+    Picture first(width, height, {.channels = 3}), second(width, height, {.channels = 3});
+    const brume_image first_image = first.image(), second_image = second.image();
+    const auto of_light = [](uint32_t light, const brume_image *image) {
+        brume_extra_output extra = extra_output(BRUME_OUTPUT_LIGHT_AIRLIGHT, image);
+        extra.light = light;
+        return extra;
+    };
+    ASSERT_EQ(execute(plan.get(), color, depth, output, {of_light(1, &second_image), of_light(0, &first_image)}), BRUME_OK)
+        << message(context.get());
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            ASSERT_GT(first.get(x, y, 0), 0.0f);
+            ASSERT_EQ(first.get(x, y, 1), 0.0f);
+            ASSERT_EQ(second.get(x, y, 0), 0.0f);
+            ASSERT_GT(second.get(x, y, 1), 0.0f);
+        }
+    }
+
+    const auto refused = [&](const std::vector<brume_extra_output> &extra, const char *named) {
+        expect_status(context.get(), execute(plan.get(), color, depth, output, extra), BRUME_ERROR_ARGUMENT, named);
+    };
+    refused({of_light(2, &first_image)}, "extra[0].light: 2");
+    refused({of_light(0, &first_image), of_light(0, &second_image)}, "extra[1].output: given twice");
+    brume_extra_output misplaced = extra_output(BRUME_OUTPUT_TRANSMITTANCE, &first_image);
+    misplaced.light = 1;
+    refused({misplaced}, "extra[0].light: 1");
+    refused(std::vector<brume_extra_output>(6 + BRUME_MAX_LIGHTS + 1, of_light(0, &first_image)), "extra_count: 4103");
+}

@@ -118,7 +118,7 @@ TEST_P(Plans, FormatRefusesNonsense)
         {[](auto &f) { f.display_width = -10, f.display_height = 10; }, "display_width"},
         {[](auto &f) { f.depth_kind = 5; }, "depth_kind"},
         {[](auto &f) { f.sky = 3; }, "sky"},
-        {[](auto &f) { f.outputs = 16; }, "outputs"},
+        {[](auto &f) { f.outputs = 128; }, "outputs"},
         {[](auto &f) { f.far_distance = 0; }, "far_distance"},
         {[](auto &f) { f.far_distance = NAN; }, "far_distance"},
         {[](auto &f) { f.depth_kind = BRUME_DEPTH_NORMALIZED, f.depth_range[1] = INFINITY; }, "depth_range"},
