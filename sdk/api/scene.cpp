@@ -149,7 +149,8 @@ brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *give
         medium = read_struct(given, medium, "brume_medium", &brume_medium::term_count, &brume_medium::scattering,
                              &brume_medium::absorption, &brume_medium::emission, &brume_medium::g, &brume_medium::visibility,
                              &brume_medium::droplet_diameter, &brume_medium::terms, &brume_medium::gaussians,
-                             &brume_medium::gaussian_count);
+                             &brume_medium::gaussian_count, &brume_medium::noise_seed, &brume_medium::noise_strength,
+                             &brume_medium::noise_scale, &brume_medium::noise_offset);
         Medium result;
         result.scattering = numbers(medium.scattering);
         result.absorption = numbers(medium.absorption);
@@ -164,6 +165,7 @@ brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *give
         for (size_t i = 0; i < medium.term_count; ++i)
             result.density.push_back(read_term(element(medium.terms, i), i));
         result.gaussian_sets = gaussians_of(medium);
+        result.noise = {medium.noise_strength, medium.noise_scale, numbers(medium.noise_offset), medium.noise_seed};
         check_medium(result);
         scene.medium = std::move(result);
     });

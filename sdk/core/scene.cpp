@@ -51,7 +51,8 @@ bool animated(const Medium &medium)
     return any_animated(medium.scattering) || any_animated(medium.absorption) || any_animated(medium.emission) ||
            medium.g.animated() || any_animated(medium.visibility) || any_animated(medium.droplet_diameter) ||
            any_term_animated(medium.density) || any_term_animated(medium.gaussians) ||
-           any_term_animated(medium.gaussian_sets);
+           any_term_animated(medium.gaussian_sets) || medium.noise.strength.animated() || medium.noise.scale.animated() ||
+           any_animated(medium.noise.offset);
 }
 
 bool animated(const Light &light)
@@ -95,6 +96,20 @@ void evaluate_phase(const Medium &medium, const FrameValues &values, brume_plugi
     out.phase[2] = float(alpha);
     out.phase[3] = float(weight);
     out.asymmetry = float((1.0 - weight) * g_hg + weight * draine_mean_cosine(g_draine, alpha));
+}
+
+void evaluate_noise(const Scene &scene, const FrameValues &values, const std::array<double, 16> &camera_to_world,
+                    brume_plugin_medium &out)
+{
+    constexpr double period = 256;
+    const Noise &noise = scene.medium->noise;
+    const double scale = values.get(noise.scale, ranges::noise_scale, "medium.noise.scale");
+    const std::array<double, 3> offset = values.get(noise.offset, ranges::any, "medium.noise.offset");
+    out.noise[0] = float(values.get(noise.strength, ranges::noise_strength, "medium.noise.strength"));
+    out.noise[1] = float(1 / (scale * scene.metres_per_unit));
+    out.noise[2] = float(noise.seed);
+    for (size_t i = 0; i < 3; ++i)
+        out.noise_shift[i] = float(std::fmod((camera_to_world[4 * i + 3] - offset[i]) / scale, period));
 }
 
 void evaluate_density(const Scene &scene, const FrameValues &values, const std::array<double, 16> &camera_to_world,
@@ -224,6 +239,7 @@ void evaluate_medium(const Scene &scene, double frame, const std::array<double, 
     }
     evaluate_phase(medium, values, out);
     evaluate_density(scene, values, camera_to_world, out);
+    evaluate_noise(scene, values, camera_to_world, out);
 }
 
 }  // namespace brume

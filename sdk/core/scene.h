@@ -51,6 +51,14 @@ struct GaussianSet {
     Number amplitude = 1.0;                        // times each of theirs
 };
 
+// Perturbs the view ray before it meets a Gaussian (Zhou et al. 2007 sec. 5.5).
+struct Noise {
+    Number strength = 0.0;  // in radii of the Gaussian
+    Number scale = 1.0;     // scene units
+    Number3 offset{};       // scene units
+    uint32_t seed = 0;
+};
+
 struct Medium {
     Number3 scattering{}, absorption{}, emission{};  // [1/m], [1/m], [radiance/m], at unit density
     Number g = 0.0;
@@ -59,6 +67,7 @@ struct Medium {
     std::vector<DensityTerm> density;        // with neither these nor Gaussians: constant 1
     std::vector<GaussianTerm> gaussians;
     std::vector<GaussianSet> gaussian_sets;
+    Noise noise;
 };
 
 struct Light {

@@ -45,6 +45,10 @@ void check_medium(const Medium &medium)
         check(*medium.visibility, ranges::positive, "medium.visibility");
     if (medium.droplet_diameter)
         check(*medium.droplet_diameter, ranges::droplet_diameter, "medium.droplet_diameter");
+    check(medium.noise.strength, ranges::noise_strength, "medium.noise_strength");
+    check(medium.noise.scale, ranges::noise_scale, "medium.noise_scale");
+    check(medium.noise.offset, ranges::any, "medium.noise_offset");
+    check(Number(medium.noise.seed), ranges::noise_seed, "medium.noise_seed");
     size_t exponential = 0;
     for (size_t i = 0; i < medium.density.size(); ++i) {
         const DensityTerm &term = medium.density[i];

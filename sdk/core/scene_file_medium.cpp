@@ -90,11 +90,29 @@ void read_density(const JsonNode &node, const std::filesystem::path &folder, Med
     }
 }
 
+Noise read_noise(const JsonNode &node)
+{
+    node.allow_only({"strength", "scale", "offset", "seed"});
+    Noise noise;
+    noise.strength = read_number(node.get("strength"), ranges::noise_strength);
+    if (const auto scale = node.find("scale"))
+        noise.scale = read_number(*scale, ranges::noise_scale);
+    if (const auto offset = node.find("offset"))
+        noise.offset = read_vector(*offset, ranges::any);
+    if (const auto seed = node.find("seed")) {
+        const double value = read_constant(*seed, ranges::noise_seed);
+        if (value != std::floor(value))
+            seed->expected("a whole " + ranges::noise_seed.describe());
+        noise.seed = uint32_t(value);
+    }
+    return noise;
+}
+
 }  // namespace
 
 Medium read_medium(const JsonNode &node, const std::filesystem::path &folder)
 {
-    node.allow_only({"scattering", "absorption", "emission", "g", "visibility", "droplet_diameter", "density"});
+    node.allow_only({"scattering", "absorption", "emission", "g", "visibility", "droplet_diameter", "density", "noise"});
     node.refuse_both("scattering", "visibility");
     node.refuse_both("g", "droplet_diameter");
     Medium medium;
@@ -112,6 +130,8 @@ Medium read_medium(const JsonNode &node, const std::filesystem::path &folder)
         medium.droplet_diameter = read_number(*diameter, ranges::droplet_diameter);
     if (const auto density = node.find("density"))
         read_density(*density, folder, medium);
+    if (const auto noise = node.find("noise"))
+        medium.noise = read_noise(*noise);
     return medium;
 }
 

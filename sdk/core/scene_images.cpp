@@ -86,9 +86,10 @@ brume_status SceneImages::density_cpu(brume_host_t &host, const brume_plugin_fra
     struct Call {
         brume_plugin_pixels depth, density;
         Texture gaussians, tiles, tile_gaussians;
+        maths_float::Medium medium;
         maths_float::Camera camera;
     } call{host.pixels(frame.depth), host.pixels(density_), texture_of(host.pixels(gaussians_)),
-           texture_of(host.pixels(tiles_)), texture_of(host.pixels(tile_gaussians_)), camera_of(*frame.scene)};
+           texture_of(host.pixels(tiles_)), texture_of(host.pixels(tile_gaussians_)), medium_of(*frame.scene), camera_of(*frame.scene)};
     return services().rows(
         &host, pass_name, height_, 8,
         [](void *user, int32_t first, int32_t last) {
@@ -97,7 +98,7 @@ brume_status SceneImages::density_cpu(brume_host_t &host, const brume_plugin_fra
                 for (int32_t x = 0; x < c.depth.width; ++x) {
                     const ivec2 pixel(x, y);
                     const vec2 moment =
-                        tile_density(c.gaussians, c.tiles, c.tile_gaussians, c.camera, c.depth.width, pixel,
+                        tile_density(c.medium, c.camera, c.gaussians, c.tiles, c.tile_gaussians, c.depth.width, pixel,
                                      c.depth.data[y * c.depth.row_stride + x * c.depth.channels]);
                     float *to = c.density.data + y * c.density.row_stride + int64_t(x) * c.density.channels;
                     to[0] = moment.x;

@@ -35,6 +35,9 @@ inline constexpr Range field_of_view{0.0, 180.0, true};     // [degrees]
 inline constexpr Range spot_angle{0.0, 3.141592653589793};  // [rad]; of the whole cone
 inline constexpr Range spot_degrees{0.0, 180.0};
 inline constexpr Range pixel_aspect{1e-3, 1e3};
+inline constexpr Range noise_strength{0.0, 10.0};
+inline constexpr Range noise_scale{1e-6, 1e9};
+inline constexpr Range noise_seed{0.0, 65535.0};
 inline constexpr Range center{-1e6, 1e6};
 inline constexpr Range frame{-1e9, 1e9};
 

@@ -126,7 +126,13 @@ Json medium()
          {"g", described(number(ranges::asymmetry), "Mean cosine of the phase function")},
          {"visibility", described(number(ranges::positive), "[m]; instead of scattering: 3.912 / visibility - absorption")},
          {"droplet_diameter", described(number(ranges::droplet_diameter), "[um]; instead of g")},
-         {"density", density()}});
+         {"density", density()},
+         {"noise", described(object_of({{"strength", described(number(ranges::noise_strength), "In radii of each Gaussian")},
+                                        {"scale", described(number(ranges::noise_scale), "Scene units; 1 by default")},
+                                        {"offset", described(reference("vector"), "Scene units; keys animate it")},
+                                        {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", 65535}}}},
+                                       {"strength"}),
+                             "Shifts the view ray before it meets a Gaussian")}});
     schema["allOf"] = Json::array({not_together("scattering", "visibility"), not_together("g", "droplet_diameter")});
     return schema;
 }

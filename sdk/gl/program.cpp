@@ -195,6 +195,8 @@ void GlProgram::set_scene(const brume_plugin_scene &scene)
     set_float("brume_medium.emission", 3, medium.emission);
     set_float("brume_medium.luminance", 3, medium.luminance);
     set_float("brume_medium.phase", 4, medium.phase);
+    set_float("brume_medium.noise", 4, medium.noise);
+    set_float("brume_medium.noise_shift", 3, medium.noise_shift);
     set_float("brume_medium.asymmetry", 1, &medium.asymmetry);
     set_float("brume_medium.constant", 1, &medium.constant);
     set_int("brume_medium.term_count", medium.term_count);

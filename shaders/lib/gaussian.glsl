@@ -132,9 +132,8 @@ PURE float gaussian_integral(IN(Gaussian) g, vec3 origin, vec3 direction, float 
 
 // int_0^D rho dt and int_0^D rho (1 - t/D)^2 dt, from the camera. The latter's terms cancel on the flanks: there it is good
 // to 1e-5 of the former only.
-PURE vec2 gaussian_density_moment(IN(Gaussian) g, vec3 direction, float distance)
+PURE vec2 profile_density_moment(IN(Profile) p, float distance)
 {
-    Profile p = profile_along(g, vec3(R(0.0)), direction);
     float a = clamp(-p.scale * p.middle, -gaussian_limit, gaussian_limit);
     float width = clamp(p.scale * distance, R(1e-30), gaussian_limit);
     float area = gaussian_area(a, width);
@@ -155,4 +154,9 @@ PURE vec2 gaussian_density_moment(IN(Gaussian) g, vec3 direction, float distance
     }
     float scale = p.peak / p.scale;
     return vec2(min(scale * area, density_limit), min(scale * clamp(moment, R(0.0), area), density_limit));
+}
+
+PURE vec2 gaussian_density_moment(IN(Gaussian) g, vec3 direction, float distance)
+{
+    return profile_density_moment(profile_along(g, vec3(R(0.0)), direction), distance);
 }

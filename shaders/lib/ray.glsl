@@ -15,6 +15,11 @@ const int sky_clamp = 2;
 
 const int nonpositive_near = 1;
 
+PURE vec3 in_world(IN(Camera) camera, vec3 d)
+{
+    return d.x * camera.right + d.y * camera.up + d.z * camera.back;
+}
+
 struct Ray {
     vec3 direction;  // unit, camera space, looking down -z
     float distance;  // to what the pixel shows [m], 0 to far_away

@@ -9,6 +9,8 @@ struct Medium {
     vec3 emission;     // at unit density [radiance/m]
     vec3 luminance;    // weights of the working space
     vec4 phase;        // g of Henyey-Greenstein, g and alpha of Draine, weight of Draine
+    vec4 noise;        // of the view ray at Gaussians: strength in radii, lattice points per metre, seed
+    vec3 noise_shift;  // the camera's place in the noise's lattice
     float asymmetry;   // g, mean cosine of the phase function
     float constant;    // sum of the constant density terms
     int term_count;

@@ -36,11 +36,6 @@ PURE vec3 octahedral_direction(vec2 square)
     return d / length(d);
 }
 
-PURE vec3 in_world(IN(Camera) camera, vec3 d)
-{
-    return d.x * camera.right + d.y * camera.up + d.z * camera.back;
-}
-
 PURE int cell_of(vec2 square, int grid)
 {
     int x = clamp(int(square.x * float(grid)), 0, grid - 1);

@@ -1,5 +1,5 @@
 // The host's lists of the Gaussians that matter in a tile of the screen (frame->tiles, frame->tile_gaussians).
-// Needs ray.glsl, data.glsl, gaussian.glsl.
+// Needs noise.glsl, data.glsl.
 
 const int tile_size = 16;  // BRUME_TILE_SIZE
 
@@ -12,7 +12,8 @@ PURE float gaussian_reach(IN(Medium) medium, IN(Gaussian) g)
     vec3 extinction = medium.scattering + medium.absorption;
     float most = max(max(extinction.x, extinction.y), extinction.z);
     float depth = most * g.amplitude * R(1.77245385091) / g.scale;
-    return sqrt(log(clamp(depth, R(1.0), R(1e30)) / reach_share)) / g.scale;
+    // Noise shifts rays by up to its strength along each axis.
+    return (sqrt(log(clamp(depth, R(1.0), R(1e30)) / reach_share)) + R(1.74) * medium.noise.x) / g.scale;
 }
 
 // First entry of the pixel's list and their number.
@@ -24,8 +25,8 @@ PURE ivec2 tile_range(sampler2D tiles, int width, ivec2 pixel)
 }
 
 // Of all Gaussians along the pixel's ray: int rho dt to what it shows, and int rho (1 - t/D)^2 dt.
-PURE vec2 tile_density(sampler2D gaussians, sampler2D tiles, sampler2D tile_gaussians, IN(Camera) camera, int width,
-                       ivec2 pixel, float raw_depth)
+PURE vec2 tile_density(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians, sampler2D tiles, sampler2D tile_gaussians,
+                       int width, ivec2 pixel, float raw_depth)
 {
     Ray ray = pixel_ray(camera, vec2(pixel) + R(0.5), raw_depth);
     vec2 sum = vec2(R(0.0));
@@ -34,7 +35,7 @@ PURE vec2 tile_density(sampler2D gaussians, sampler2D tiles, sampler2D tile_gaus
     ivec2 range = tile_range(tiles, width, pixel);
     for (int i = 0; i < range.y; ++i) {
         int index = int(data_texel(tile_gaussians, range.x + i).x);
-        sum += gaussian_density_moment(gaussian_at(gaussians, index), ray.direction, ray.distance);
+        sum += profile_density_moment(sight_profile(medium, camera, gaussian_at(gaussians, index), ray.direction), ray.distance);
     }
     return sum;
 }

@@ -4,6 +4,7 @@
 #include "radiance.glsl"
 #include "data.glsl"
 #include "gaussian.glsl"
+#include "noise.glsl"
 #include "tiles.glsl"
 #include "upsample.glsl"
 #include "phase.glsl"

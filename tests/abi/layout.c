@@ -93,7 +93,10 @@ FIELD(brume_medium, droplet_diameter, 96, 8);
 FIELD(brume_medium, terms, 104, 8);
 FIELD(brume_medium, gaussians, 112, 8);
 FIELD(brume_medium, gaussian_count, 120, 4);
-FIELD(brume_medium, reserved, 124, 4);
+FIELD(brume_medium, noise_seed, 0, 4);
+FIELD(brume_medium, noise_strength, 0, 8);
+FIELD(brume_medium, noise_scale, 0, 8);
+FIELD(brume_medium, noise_offset, 0, 24);
 
 SIZE(brume_scene_info, 24);
 FIELD(brume_scene_info, struct_size, 0, 4);

@@ -228,10 +228,13 @@ typedef struct brume_medium {
   const brume_density_term *terms; /* term_count of them, each of terms[0].struct_size; they add up */
   const brume_gaussian *gaussians; /* gaussian_count of them, each of gaussians[0].struct_size; they add to the terms */
   uint32_t gaussian_count; /* default 0. With Gaussians and no terms there is no constant density. */
-  uint32_t reserved;       /* 0 */
+  uint32_t noise_seed;     /* Noise perturbs the view ray before it meets a Gaussian, anchored in the world (Fogshop sec. 5.5) */
+  double noise_strength;   /* largest shift of the ray at the Gaussian along each axis, in its radii 1/a, 0 to 10; default 0 */
+  double noise_scale;      /* distance between the noise's lattice points, in scene units, > 0; default 1 */
+  double noise_offset[3];  /* shift of the noise, in scene units; move it to animate; default 0 */
 } brume_medium;
 #define BRUME_MEDIUM_INIT {(uint32_t)sizeof(brume_medium), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
-                           0.0, 0.0, 0.0, NULL, NULL, 0u, 0u}
+                           0.0, 0.0, 0.0, NULL, NULL, 0u, 0u, 0.0, 1.0, {0.0, 0.0, 0.0}}
 
 /* Replaces the medium; NULL takes it away. */
 BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_medium *medium);

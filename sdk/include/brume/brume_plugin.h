@@ -50,6 +50,8 @@ typedef struct brume_plugin_medium {
   float emission[3];    /* [radiance/m] */
   float luminance[3];   /* weights of the working space */
   float phase[4];       /* phase function: g of Henyey-Greenstein, g and alpha of Draine, weight of Draine (0: none) */
+  float noise[4];       /* of the view ray at Gaussians: strength in radii, lattice points per metre, seed, 0 */
+  float noise_shift[3]; /* the camera's place in the noise's lattice, modulo its period of 256 */
   float asymmetry;      /* g, the phase function's mean cosine */
   float constant;       /* sum of the constant density terms */
   int32_t term_count;
