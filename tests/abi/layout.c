@@ -81,7 +81,7 @@ FIELD(brume_light, angle, 88, 8);
 FIELD(brume_light, penumbra, 96, 8);
 FIELD(brume_light, distance, 104, 8);
 
-SIZE(brume_medium, 128);
+SIZE(brume_medium, 168);
 FIELD(brume_medium, struct_size, 0, 4);
 FIELD(brume_medium, term_count, 4, 4);
 FIELD(brume_medium, scattering, 8, 24);
@@ -93,10 +93,10 @@ FIELD(brume_medium, droplet_diameter, 96, 8);
 FIELD(brume_medium, terms, 104, 8);
 FIELD(brume_medium, gaussians, 112, 8);
 FIELD(brume_medium, gaussian_count, 120, 4);
-FIELD(brume_medium, noise_seed, 0, 4);
-FIELD(brume_medium, noise_strength, 0, 8);
-FIELD(brume_medium, noise_scale, 0, 8);
-FIELD(brume_medium, noise_offset, 0, 24);
+FIELD(brume_medium, noise_seed, 124, 4);
+FIELD(brume_medium, noise_strength, 128, 8);
+FIELD(brume_medium, noise_scale, 136, 8);
+FIELD(brume_medium, noise_offset, 144, 24);
 
 SIZE(brume_scene_info, 24);
 FIELD(brume_scene_info, struct_size, 0, 4);

@@ -9,11 +9,11 @@
 #define SIZE(type, bytes) EXPECT(sizeof(type) == (bytes))
 #define FIELD(type, field, offset) EXPECT(offsetof(type, field) == (offset))
 
-SIZE(brume_plugin_medium, 332);
+SIZE(brume_plugin_medium, 360);
 FIELD(brume_plugin_medium, phase, 48);
-FIELD(brume_plugin_medium, asymmetry, 64);
-FIELD(brume_plugin_medium, term_count, 72);
-FIELD(brume_plugin_medium, terms, 76);
+FIELD(brume_plugin_medium, asymmetry, 92);
+FIELD(brume_plugin_medium, term_count, 100);
+FIELD(brume_plugin_medium, terms, 104);
 SIZE(brume_plugin_camera, 92);
 FIELD(brume_plugin_camera, depth_kind, 24);
 FIELD(brume_plugin_camera, far_distance, 40);
@@ -32,15 +32,15 @@ FIELD(brume_plugin_light, intensity, 32);
 FIELD(brume_plugin_light, cos_inner, 44);
 FIELD(brume_plugin_light, type, 48);
 FIELD(brume_plugin_light, distance, 52);
-SIZE(brume_plugin_scene, 504);
+SIZE(brume_plugin_scene, 536);
 FIELD(brume_plugin_scene, medium, 8);
-FIELD(brume_plugin_scene, camera, 340);
-FIELD(brume_plugin_scene, output_limit, 432);
-FIELD(brume_plugin_scene, light_count, 436);
-FIELD(brume_plugin_scene, lights, 448);
-FIELD(brume_plugin_scene, environment, 464);
-FIELD(brume_plugin_scene, position, 472);
-FIELD(brume_plugin_scene, revision, 496);
+FIELD(brume_plugin_scene, camera, 368);
+FIELD(brume_plugin_scene, output_limit, 460);
+FIELD(brume_plugin_scene, light_count, 464);
+FIELD(brume_plugin_scene, lights, 480);
+FIELD(brume_plugin_scene, environment, 496);
+FIELD(brume_plugin_scene, position, 504);
+FIELD(brume_plugin_scene, revision, 528);
 SIZE(brume_plugin_request, 56);
 FIELD(brume_plugin_request, parameters, 24);
 FIELD(brume_plugin_request, scene, 32);
