@@ -122,7 +122,8 @@ void build_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height,
                 const Cone &cone = cones[tile];
                 double toward = cone.axis[0] * g.center[0] + cone.axis[1] * g.center[1] + cone.axis[2] * g.center[2];
                 double limit = cosine * cone.cosine - sine * cone.sine;  // of the sum of both angles
-                if (!around && toward < limit * distance)
+                // Tiles of wide views may see more than half of all directions: the sum could pass half a turn.
+                if (!around && cone.cosine > 0 && toward < limit * distance)
                     continue;
                 entries.push_back({tile, candidate.index});
                 ++counts[tile + 1];

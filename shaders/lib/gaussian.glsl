@@ -72,8 +72,10 @@ PURE float inverse_erf(float x)
 // the flanks and for narrow intervals.
 PURE float gaussian_area(float a, float width)
 {
+    float from = clamp(a, -gaussian_limit, gaussian_limit);
+    float to = from + min(width, gaussian_limit);
     float w = R(0.5) * min(width, gaussian_limit);
-    float c = clamp(a, -gaussian_limit, gaussian_limit) + w;
+    float c = from + w;
     if (w * max(abs(c), R(1.0)) < R(0.25)) {
         float w2 = w * w;
         float y = c * c * w2;
@@ -81,8 +83,9 @@ PURE float gaussian_area(float a, float width)
                   (R(8.0) * y * y * y - R(60.0) * y * y * w2 + R(90.0) * y * w2 * w2 - R(15.0) * w2 * w2 * w2) / R(630.0);
         return R(2.0) * w * exp(-c * c) * s;
     }
-    float nearer = abs(c) - w;
-    float farther = abs(c) + w;
+    // Not |c| -+ w: of a long interval the middle forgets where it begins.
+    float nearer = from * to < R(0.0) ? -min(abs(from), abs(to)) : min(abs(from), abs(to));
+    float farther = max(abs(from), abs(to));
     const float half_root_pi = R(0.886226925453);
     if (nearer > R(0.5))
         return half_root_pi * (scaled_erfc(nearer) * exp(-nearer * nearer) - scaled_erfc(farther) * exp(-farther * farther));
