@@ -11,14 +11,14 @@ struct AirlightSettings {
     int tier;
     int light_count;
     int gaussian_count;
-    int smooth_nodes;   // per light, for the constant and exponential terms
-    int blob_nodes;     // per light and Gaussian
-    int near_nodes;     // the same where the light is within near_radii
-    int dense_nodes;    // per light, for all that a long list holds
-    int dense_from;     // lists of more Gaussians are integrated as one
     int environment_order; // of the spherical harmonics, 0 (none) to 6
-    float near_radii;
-    float culled;       // [m at unit density] at most missing from the lists, per path
+    // nodes:
+    int panels;            // of 8 nodes, at most per light and term or Gaussian
+    int dense_from;        // lists of more Gaussians are integrated as one
+    int cells;             // of that integral, at most max_cells
+    float tolerance;       // of a panel, relative to the whole
+    float near_radii;      // a light nearer than so many radii of a Gaussian needs other nodes
+    float culled;          // [m at unit density] that may be missing from the lists, per path
 };
 
 struct Airlight {
