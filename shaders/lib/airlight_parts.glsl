@@ -8,6 +8,8 @@ const int part_terms = -1;  // constant and exponential terms; 0 and up: that en
 const int path_angle = 0;   // t = foot + height tan(from + span y(z)): 1/d^2 is constant in it
 const int path_decay = 1;   // t = foot - height log(1 - span z): parallel light
 const int path_bell = 2;    // t = foot + height sinh(from + span z): a Gaussian
+const int path_peak = 3;    // t = foot + height (u - 1/u) / 2, u = tan(turn / 2) = width sinh(from + span z): the peak of a
+                            // phase function about light that is hardly turned
 
 struct Path {
     int kind;
@@ -15,6 +17,7 @@ struct Path {
     float height;
     float from;
     float span;
+    float width;
     int crowded;    // path_angle: where the nodes are to crowd: nowhere, at the far end, at both
 };
 
@@ -23,7 +26,8 @@ const float quadrature_limit = R(1e15);  // [m]
 
 struct Panel {
     vec3 sum;
-    float error;  // of the mean of the sum's colours
+    float error;  // estimate for the mean of the sum's colours
+    float doubt;  // the same without trust in a fast convergence
 };
 
 const int panel_nodes = 8;
@@ -40,6 +44,12 @@ PURE vec2 on_path(IN(Path) path, float z)
     if (path.kind == path_bell) {
         float e = exp(path.from + path.span * z);
         return vec2(path.foot + R(0.5) * path.height * (e - R(1.0) / e), R(0.5) * path.height * (e + R(1.0) / e) * path.span);
+    }
+    if (path.kind == path_peak) {
+        float e = exp(path.from + path.span * z);
+        float u = max(R(0.5) * path.width * (e - R(1.0) / e), R(1e-18));
+        float slope = R(0.5) * path.width * (e + R(1.0) / e) * path.span;
+        return vec2(path.foot + R(0.5) * path.height * (u - R(1.0) / u), R(0.5) * path.height * (R(1.0) + R(1.0) / (u * u)) * slope);
     }
     float y = z;
     float slope = path.span;
@@ -59,7 +69,7 @@ PURE Path angle_path(IN(Light) light, IN(Aspect) aspect, float from, float to, i
     float h = max(aspect.height, light.radius);
     float a = from - aspect.foot;
     float b = to - aspect.foot;
-    return Path(path_angle, aspect.foot, h, atan(a, h), atan(h * (to - from), h * h + a * b), crowded);
+    return Path(path_angle, aspect.foot, h, atan(a, h), atan(h * (to - from), h * h + a * b), R(0.0), crowded);
 }
 
 PURE float asinh_of(float x)
@@ -72,7 +82,14 @@ PURE float asinh_of(float x)
 PURE Path bell_path(float middle, float width, float from, float to)
 {
     float a = asinh_of((from - middle) / width);
-    return Path(path_bell, middle, width, a, asinh_of((to - middle) / width) - a, 0);
+    return Path(path_bell, middle, width, a, asinh_of((to - middle) / width) - a, R(0.0), 0);
+}
+
+// tan(turn / 2) at x from the foot: (x + sqrt(x^2 + h^2)) / h.
+PURE float half_turn_tangent(float x, float h)
+{
+    float d = sqrt(x * x + h * h);
+    return x < R(0.0) ? h / (d - x) : (d + x) / h;
 }
 
 // The integral over z in [z, z + dz].
@@ -136,7 +153,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
     float lower = max(abs(c4), abs(c5));
     float upper = max(abs(c6), abs(c7));
     float fall = min(upper / max(lower, R(1e-37)), R(1.0));
-    return Panel(sum, upper * fall * fall * fall + R(1.3e-7) * (sum.x + sum.y + sum.z));
+    return Panel(sum, upper * fall * fall * fall + R(1.3e-7) * (sum.x + sum.y + sum.z), upper * fall * fall);
 }
 
 // The part of the ray where the constant and exponential terms scatter: x, y from where P is a share of what it comes to
@@ -166,17 +183,27 @@ PURE vec3 terms_range(IN(Medium) medium, IN(Sight) sight)
             else
                 high[k] = middle;
         }
-    return vec3(low.x > R(0.1) * high.y ? low.x : R(0.0), min(high.y, end), min(high.z, end));
+    // Light that comes through the dense part may come alive only where that share is spent.
+    float reach = whole * least < R(18.0) ? R(2.0) * high.y : high.y;
+    return vec3(low.x > R(0.1) * high.y ? low.x : R(0.0), min(reach, end), min(high.z, end));
 }
 
 // The path over [range.x, range.y] for a part that falls off over `decay`.
-PURE Path terms_path(IN(Light) light, IN(Aspect) aspect, vec2 range, float decay)
+PURE Path terms_path(IN(Medium) medium, IN(Light) light, IN(Aspect) aspect, vec2 range, float decay)
 {
     float length = range.y - range.x;
     float x = max(max(range.x - aspect.foot, aspect.foot - range.y), R(0.0));
     if (light.type == light_directional || max(aspect.height, x) > length)
-        return Path(path_decay, range.x, decay, R(0.0), one_minus_exp(length / decay), 0);
-    bool passes = range.y - max(aspect.foot, range.x) > max(aspect.height, light.radius);
+        return Path(path_decay, range.x, decay, R(0.0), one_minus_exp(length / decay), R(0.0), 0);
+    float h = max(aspect.height, light.radius);
+    float g = min(medium.phase.x, largest_asymmetry);
+    float first = half_turn_tangent(range.x - aspect.foot, h);
+    float width = R(0.5) * (R(1.0) - g) / sqrt(max(g, R(0.1)));
+    if (g > R(0.4) && first < R(4.0) * width) {
+        float a = asinh_of(first / width);
+        return Path(path_peak, aspect.foot, h, a, asinh_of(half_turn_tangent(range.y - aspect.foot, h) / width) - a, width, 0);
+    }
+    bool passes = range.y - max(aspect.foot, range.x) > h;
     return angle_path(light, aspect, range.x, range.y, passes ? 1 : 0);
 }
 
@@ -230,7 +257,7 @@ PURE Airlight airlight_by_parts(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                 }
                 if (range.x >= range.y)
                     continue;
-                Path path = part == part_terms ? terms_path(light, aspect, range, terms.z)
+                Path path = part == part_terms ? terms_path(medium, light, aspect, range, terms.z)
                                                : blob_path(light, aspect, middle, radius, range, settings.near_radii);
                 int left = settings.panels;
                 float z = R(0.0);
@@ -239,7 +266,7 @@ PURE Airlight airlight_by_parts(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                     Panel panel = panel_of(medium, camera, SHADOW_PASSED, tile_gaussians, sight, l, light, aspect, part, path, z, dz);
                     --left;
                     vec3 so_far = total.radiance + panel.sum;
-                    if (panel.error > settings.tolerance * (so_far.x + so_far.y + so_far.z) / R(3.0) && left > 0) {
+                    if (panel.doubt > settings.tolerance * (so_far.x + so_far.y + so_far.z) / R(3.0) && left > 0) {
                         dz *= R(0.5);
                         continue;
                     }
