@@ -39,7 +39,7 @@ double terms_integral(const Medium &medium, vec3 origin, vec3 direction, double 
 class Integrand {
 public:
     Integrand(const ReferenceScene &scene, vec3 direction, const Light &light)
-        : scene_(scene), direction_(direction), light_(light), radius_(apparent_radius(light))
+        : scene_(scene), direction_(direction), light_(light), aspect_(aspect_of(light, direction))
     {
     }
 
@@ -48,16 +48,13 @@ public:
         const vec3 x = t * direction_;
         const Medium &medium = scene_.medium;
         vec3 way = light_.direction;
-        double strength = 1, d = far_away, constant_distance = light_.distance;
+        double d = far_away, constant_distance = light_.distance;
         if (light_.type != light_directional) {
             const vec3 from = x - light_.position;
             d = constant_distance = glm::length(from);
             way = from / std::max(d, 1e-300);
-            strength = fluence(d, radius_);
-            if (light_.type == light_spot)
-                strength *= spot_factor(light_, glm::dot(way, light_.direction));
         }
-        strength *= phase(medium, -glm::dot(way, direction_));
+        const double strength = lit_strength(medium, light_, aspect_, direction_, t);
         if (strength <= 0)
             return vec3(0);
         double depth = terms_integral(medium, vec3(0), direction_, t, t) + terms_integral(medium, x, -way, d, constant_distance);
@@ -78,13 +75,12 @@ public:
         for (double far = 1e-6; far < distance; far *= 8)
             t.push_back(far);
         if (light_.type != light_directional) {
-            const double t0 = glm::dot(light_.position, direction_);
-            const double foot = glm::length(glm::cross(light_.position, direction_)), h = std::max(foot, radius_);
+            const double t0 = aspect_.foot, h = aspect_.height;
             for (double s : {0.0, 0.25, 1.0, 4.0, 16.0, 64.0})
                 for (double side : {-1.0, 1.0})
                     t.push_back(t0 + side * s * h);
             // Where the ray enters the light's sphere, whose inside has constant fluence.
-            const double k = std::sqrt(std::max(radius_ * radius_ - foot * foot, 0.0));
+            const double k = std::sqrt(std::max(light_.radius * light_.radius - h * h, 0.0));
             t.push_back(t0 - k);
             t.push_back(t0 + k);
             if (light_.type == light_spot)
@@ -110,7 +106,7 @@ private:
     const ReferenceScene &scene_;
     vec3 direction_;
     const Light &light_;
-    double radius_;
+    Aspect aspect_;
 };
 
 struct Piece {

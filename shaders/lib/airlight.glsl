@@ -11,14 +11,14 @@ struct AirlightSettings {
     int tier;
     int light_count;
     int gaussian_count;
-    int smooth_nodes;   // per light, for the constant and exponential terms
-    int blob_nodes;     // per light and Gaussian
-    int near_nodes;     // the same where the light is within near_radii
-    int dense_nodes;    // per light, for all that a long list holds
-    int dense_from;     // lists of more Gaussians are integrated as one
     int environment_order; // of the spherical harmonics, 0 (none) to 6
-    float near_radii;
-    float culled;       // [m at unit density] at most missing from the lists, per path
+    // nodes:
+    int panels;            // of 8 nodes, at most per light and term or Gaussian
+    int dense_from;        // lists of more Gaussians are integrated as one
+    int cells;             // of that integral, at most max_cells
+    float tolerance;       // of a panel, relative to the whole
+    float near_radii;      // a light nearer than so many radii of a Gaussian needs other nodes
+    float culled;          // [m at unit density] that may be missing from the lists, per path
 };
 
 struct Airlight {
@@ -44,9 +44,16 @@ const float smallest_light = R(1e-6);       // [m]
 const float smallest_light_angle = R(1e-4); // as seen from the camera
 const float radiance_limit = R(1e30);
 
-PURE float apparent_radius(IN(Light) light)
+// Where a light stands to a ray: the ray's point nearest to it, and how far it is from there.
+struct Aspect {
+    float foot;
+    float height;
+};
+
+PURE Aspect aspect_of(IN(Light) light, vec3 direction)
 {
-    return max(max(light.radius, smallest_light), smallest_light_angle * length(light.position));
+    float least = max(smallest_light, smallest_light_angle * length(light.position));
+    return Aspect(dot(light.position, direction), max(length(cross(direction, light.position)), least));
 }
 
 // Radiance integrated over the directions from which a sphere of radius R and intensity 1 shines on a point at distance d:
@@ -57,43 +64,32 @@ PURE float fluence(float d, float radius)
     return R(2.0) / (x * x + x * sqrt((x - radius) * (x + radius)));
 }
 
+// p I / d^2 at t for I = 1, without extinction.
+PURE float lit_strength(IN(Medium) medium, IN(Light) light, IN(Aspect) aspect, vec3 direction, float t)
+{
+    if (light.type == light_directional)
+        return phase(medium, -dot(light.direction, direction));
+    float x = t - aspect.foot;
+    float d = sqrt(aspect.height * aspect.height + x * x);
+    float s = phase(medium, -x / d) * fluence(d, light.radius);
+    if (light.type == light_spot) {
+        vec3 from = t * direction - light.position;
+        s *= spot_factor(light, dot(from, light.direction) / max(length(from), R(1e-20)));
+    }
+    return s;
+}
+
+// int rho dt of the constant and exponential terms between the light and a point.
+PURE float terms_to_light(IN(Medium) medium, IN(Light) light, vec3 point)
+{
+    if (light.type == light_directional)
+        return density_between(medium, point, -light.direction, far_away, light.distance);
+    vec3 way = light.position - point;
+    float d = length(way);
+    return density_between(medium, point, way / max(d, R(1e-20)), d, d);
+}
+
 PURE Gaussian listed_gaussian(sampler2D gaussians, sampler2D tile_gaussians, IN(Sight) sight, int i)
 {
     return gaussian_at(gaussians, int(data_texel(tile_gaussians, sight.first + i).x));
-}
-
-// P(v, x(t)) of all terms.
-PURE float sight_density(IN(Medium) medium, sampler2D gaussians, sampler2D tile_gaussians, IN(Sight) sight, float t)
-{
-    float p = density_integral(medium, sight.direction, t);
-    for (int i = 0; i < sight.count; ++i) {
-        Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
-        p += profile_depth(profile_along(g, vec3(R(0.0)), sight.direction), R(0.0), t);
-    }
-    return min(p, density_limit);
-}
-
-// What of a light arrives at the point t along the ray and is turned into it, per unit of scattering: p I / d^2 e^-tau.
-PURE vec3 turned_light(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, IN(Sight) sight, int index, IN(Light) light,
-                       float t, float view_density)
-{
-    vec3 point = t * sight.direction;
-    float strength;
-    float depth = view_density;
-    if (light.type == light_directional) {
-        strength = phase(medium, -dot(light.direction, sight.direction));
-        depth += density_between(medium, point, -light.direction, far_away, light.distance);
-    } else {
-        vec3 from = point - light.position;
-        float d = length(from);
-        vec3 way = from / max(d, R(1e-20));
-        strength = phase(medium, -dot(way, sight.direction)) * fluence(d, apparent_radius(light));
-        if (light.type == light_spot)
-            strength *= spot_factor(light, dot(way, light.direction));
-        depth += density_between(medium, point, -way, d, d);
-    }
-    if (strength <= R(0.0))
-        return vec3(R(0.0));
-    depth += shadow_density(SHADOW_PASSED, camera, index, light, point);
-    return min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
 }

@@ -39,21 +39,13 @@ PURE float sun_function_error(float u, float v)
            (u > sun_table_limit ? exp(-sun_table_limit * t) : R(0.0));
 }
 
-// The light's geometry along a ray: [from, to] of it, the foot of the light on the ray, the distance of the light from it.
-struct LightPath {
-    float from;
-    float to;
-    float foot;
-    float height;
-};
-
 // La of eq. 11 and its error at sigma_s = beta, I = 1.
-PURE vec2 sun_airlight(sampler2D sun_table, IN(LightPath) path, float beta)
+PURE vec2 sun_airlight(sampler2D sun_table, IN(Aspect) aspect, vec2 lit, float beta)
 {
-    float u = beta * path.height;
-    float v0 = R(0.5) * half_pi + R(0.5) * atan(path.from - path.foot, path.height);
-    float v1 = R(0.5) * half_pi + R(0.5) * atan(path.to - path.foot, path.height);
-    float a0 = beta * exp(clamp(-beta * path.foot, -R(80.0), R(80.0))) / (R(2.0) * pi * path.height);
+    float u = beta * aspect.height;
+    float v0 = R(0.5) * half_pi + R(0.5) * atan(lit.x - aspect.foot, aspect.height);
+    float v1 = R(0.5) * half_pi + R(0.5) * atan(lit.y - aspect.foot, aspect.height);
+    float a0 = beta * exp(clamp(-beta * aspect.foot, -R(80.0), R(80.0))) / (R(2.0) * pi * aspect.height);
     float f = sun_function(sun_table, u, v1) - sun_function(sun_table, u, v0);
     return a0 * vec2(max(f, R(0.0)), sun_function_error(u, v0) + sun_function_error(u, v1));
 }
@@ -66,8 +58,8 @@ PURE Airlight homogeneous_airlight(IN(Medium) medium, sampler2D sun_table, IN(Li
     vec2 lit = lit_interval(light, direction, distance, mix(light.cos_outer, light.cos_inner, R(0.5)));
     if (lit.x >= lit.y || density <= R(0.0))
         return none;
-    LightPath path = LightPath(lit.x, lit.y, dot(light.position, direction),
-                               max(length(cross(direction, light.position)), apparent_radius(light)));
+    Aspect aspect = aspect_of(light, direction);
+    aspect.height = max(aspect.height, light.radius);
     vec3 beta = (medium.scattering + medium.absorption) * density;
     vec2 value = vec2(R(0.0));
     Airlight sum = none;
@@ -75,7 +67,7 @@ PURE Airlight homogeneous_airlight(IN(Medium) medium, sampler2D sun_table, IN(Li
         if (beta[c] <= R(0.0))
             continue;
         if (c == 0 || beta[c] != beta[c - 1])
-            value = sun_airlight(sun_table, path, beta[c]);
+            value = sun_airlight(sun_table, aspect, lit, beta[c]);
         float albedo = medium.scattering[c] * density / beta[c];
         sum.radiance[c] = min(albedo * light.intensity[c] * value.x, radiance_limit);
         sum.error[c] = min(albedo * light.intensity[c] * value.y, radiance_limit);

@@ -1,0 +1,153 @@
+// The tier `nodes` where many Gaussians lie along the ray: their summed density in cells. Needs airlight.glsl.
+//
+// Between two edges the mass, its centroid and the transmittance to the camera are exact (erf and exp of each Gaussian at the
+// edges), whatever the density does there, and only the light is taken as it is at the centroid. That is of second order, but
+// costs (edges + cells) per Gaussian where parts cost Gaussians squared, and what depends on the view serves all lights.
+
+const int max_cells = 32;
+const int coarse_cells = 16;
+
+// Edge k of `count` + 1 over the ray: most within the Gaussians, a few before and behind in growing steps.
+PURE float coarse_edge(vec2 blobs, float end, int k)
+{
+    if (k == 0)
+        return R(0.0);
+    if (k == 1)
+        return R(0.5) * blobs.x;
+    if (k <= coarse_cells - 2)
+        return mix(blobs.x, blobs.y, float(k - 2) / float(coarse_cells - 4));
+    return k == coarse_cells - 1 ? blobs.y + R(0.2) * (end - blobs.y) : end;
+}
+
+PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_IMAGES,
+                                IN(Sight) sight, int first_light, int last_light)
+{
+    bool has_terms = medium.constant > R(0.0) || medium.term_count > 0;
+    float far = has_terms ? terms_range(medium, sight).y : R(0.0);
+    vec3 extinction = medium.scattering + medium.absorption;
+    float mean_extinction = (extinction.x + extinction.y + extinction.z) / R(3.0);
+
+    vec2 blobs = vec2(far_away, R(0.0));
+    for (int i = 0; i < sight.count; ++i) {
+        Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
+        float middle = dot(g.center, sight.direction);
+        blobs = vec2(min(blobs.x, middle - R(3.0) / g.scale), max(blobs.y, middle + R(3.0) / g.scale));
+    }
+    float end = min(sight.distance, max(far, blobs.y));
+    blobs = clamp(blobs, vec2(R(0.0)), vec2(end));
+
+    float coarse[coarse_cells + 1];
+    float p[coarse_cells + 1];
+    for (int k = 0; k <= coarse_cells; ++k) {
+        coarse[k] = coarse_edge(blobs, end, k);
+        p[k] = density_integral(medium, sight.direction, coarse[k]);
+    }
+    for (int i = 0; i < sight.count; ++i) {
+        Profile profile = profile_along(listed_gaussian(gaussians, tile_gaussians, sight, i), vec3(R(0.0)), sight.direction);
+        float before = erf(-profile.scale * profile.middle);
+        float depth = R(0.886226925453) * profile.peak / profile.scale;
+        for (int k = 0; k <= coarse_cells; ++k)
+            p[k] += depth * (erf(profile.scale * (coarse[k] - profile.middle)) - before);
+    }
+    // What each coarse cell matters: its visible mass, and that times the solid angle of its light.
+    float mass[coarse_cells];
+    float lit[coarse_cells];
+    float all_mass = R(1e-30);
+    float all_lit = R(1e-30);
+    for (int k = 0; k < coarse_cells; ++k) {
+        float tau = mean_extinction * max(p[k + 1] - p[k], R(0.0));
+        mass[k] = exp(-min(mean_extinction * p[k], R(80.0))) * one_minus_exp(tau);
+        lit[k] = R(0.0);
+        all_mass += mass[k];
+    }
+    for (int l = first_light; l < last_light; ++l) {
+        Light light = light_at(lights, l);
+        if (light.type == light_directional)
+            continue;
+        Aspect aspect = aspect_of(light, sight.direction);
+        float h = max(aspect.height, light.radius);
+        for (int k = 0; k < coarse_cells; ++k) {
+            float width = coarse[k + 1] - coarse[k];
+            float angle = atan(h * width, h * h + (coarse[k] - aspect.foot) * (coarse[k + 1] - aspect.foot));
+            float share = mass[k] * angle / (h * max(width, R(1e-20)));
+            lit[k] += share;
+            all_lit += share;
+        }
+    }
+    // Fine edges at equal steps of that.
+    int steps = clamp(settings.cells, 1, max_cells);
+    float edge[max_cells + 1];
+    float to[max_cells + 1];       // P there
+    float moment[max_cells + 1];   // int rho (t - blobs.x) dt
+    vec3 coloured[max_cells + 1];  // int colour rho dt
+    int k = 0;
+    float passed = R(0.0);
+    edge[0] = R(0.0);
+    for (int j = 1; j <= steps; ++j) {
+        float target = float(j) / float(steps);
+        float weight = R(0.5) * (mass[k] / all_mass + (all_lit > R(1e-29) ? lit[k] / all_lit : mass[k] / all_mass));
+        while (k < coarse_cells - 1 && passed + weight < target) {
+            passed += weight;
+            ++k;
+            weight = R(0.5) * (mass[k] / all_mass + (all_lit > R(1e-29) ? lit[k] / all_lit : mass[k] / all_mass));
+        }
+        edge[j] = mix(coarse[k], coarse[k + 1], clamp((target - passed) / max(weight, R(1e-20)), R(0.0), R(1.0)));
+    }
+    edge[steps] = end;
+    for (int j = 0; j <= steps; ++j) {
+        to[j] = density_integral(medium, sight.direction, edge[j]);
+        moment[j] = R(0.0);
+        coloured[j] = vec3(to[j]);
+    }
+    for (int i = 0; i < sight.count; ++i) {
+        Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
+        Profile profile = profile_along(g, vec3(R(0.0)), sight.direction);
+        float before = erf(-profile.scale * profile.middle);
+        float depth = R(0.886226925453) * profile.peak / profile.scale;
+        float arm = profile.middle - blobs.x;
+        for (int j = 0; j <= steps; ++j) {
+            float x = min(profile.scale * abs(edge[j] - profile.middle), gaussian_limit);
+            float part = depth * (erf(profile.scale * (edge[j] - profile.middle)) - before);
+            to[j] += part;
+            moment[j] += arm * part - R(0.5) * profile.peak / (profile.scale * profile.scale) * exp(-x * x);
+            coloured[j] += g.colour * part;
+        }
+    }
+
+    Airlight total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
+    for (int l = first_light; l < last_light; ++l) {
+        Light light = light_at(lights, l);
+        Aspect aspect = aspect_of(light, sight.direction);
+        vec3 before = vec3(R(0.0));
+        vec3 last = vec3(R(0.0));
+        vec3 last_mass = vec3(R(0.0));
+        for (int j = 0; j < steps; ++j) {
+            float p0 = to[j];
+            float dp = to[j + 1] - p0;
+            if (dp <= R(0.0))
+                continue;
+            // The terms' own centroid is near enough to the middle.
+            float terms = density_integral(medium, sight.direction, edge[j + 1]) - density_integral(medium, sight.direction, edge[j]);
+            float center = (moment[j + 1] - moment[j] + terms * (R(0.5) * (edge[j] + edge[j + 1]) - blobs.x)) / dp + blobs.x;
+            float t = clamp(center, edge[j], edge[j + 1]);
+            vec3 tau = extinction * dp;
+            vec3 visible = medium.scattering * max(coloured[j + 1] - coloured[j], vec3(R(0.0))) *
+                           vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z)) *
+                           transmittance(medium, min(p0, density_limit));
+            vec3 f = vec3(R(0.0));
+            float strength = lit_strength(medium, light, aspect, sight.direction, t);
+            if (strength > R(0.0)) {
+                vec3 point = t * sight.direction;
+                float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
+                f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
+            }
+            total.radiance += f * visible;
+            if (j > 1)
+                total.error += abs(f - R(2.0) * last + before) * last_mass / R(8.0);
+            before = last;
+            last = f;
+            last_mass = visible;
+        }
+    }
+    return total;
+}
