@@ -143,7 +143,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
             }
             total.radiance += f * visible;
             if (j > 1)
-                total.error += abs(f - R(2.0) * last + before) * last_mass / R(8.0);
+                total.error += abs(f - R(2.0) * last + before) * last_mass / R(5.0);
             before = last;
             last = f;
             last_mass = visible;
