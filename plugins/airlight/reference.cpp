@@ -43,7 +43,7 @@ brume_status gather_reference(const brume_services &services, brume_host host, c
     const bool lit_around = to.environment && state.environment_order > 0;
     const Data environment = copy_of(services, host, lit_around ? state.environment : nullptr);
     const Data environment_table = copy_of(services, host, lit_around ? state.environment_table : nullptr);
-    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights};
+    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera};
     const ivec2 size(state.width, state.height);
     return brume_pixels::for_rows(services, host, "gather", radiance.height, 1, [&](int y) {
         for (int x = 0; x < radiance.width; ++x) {

@@ -12,14 +12,12 @@ using namespace maths_double;
 
 constexpr double half_root_pi = 0.88622692545275801365;
 
-double density_integral_of(const Gaussian &g, vec3 origin, vec3 direction, double distance)
+double integral_of(const Profile &p, double distance)
 {
-    const vec3 b = g.center - origin;
-    const double x = g.scale * glm::length(glm::cross(direction, b)), m = glm::dot(b, direction);
-    const double from = -g.scale * m, to = g.scale * (distance - m);
+    const double from = -p.scale * p.middle, to = p.scale * (distance - p.middle);
     const double area = from > 0 ? std::erfc(from) - std::erfc(to) : to < 0 ? std::erfc(-to) - std::erfc(-from)
                                                                            : std::erf(to) - std::erf(from);
-    return half_root_pi * g.amplitude / g.scale * std::exp(-x * x) * area;
+    return half_root_pi * p.peak / p.scale * area;
 }
 
 // expm1 in place of the single precision series of mean_exponential.
@@ -41,6 +39,8 @@ public:
     Integrand(const ReferenceScene &scene, vec3 direction, const Light &light)
         : scene_(scene), direction_(direction), light_(light), aspect_(aspect_of(light, direction))
     {
+        for (const Gaussian &g : scene.gaussians)
+            seen_.push_back(sight_profile(scene.medium, scene.camera, g, direction));
     }
 
     vec3 operator()(double t) const
@@ -59,10 +59,11 @@ public:
             return vec3(0);
         double depth = terms_integral(medium, vec3(0), direction_, t, t) + terms_integral(medium, x, -way, d, constant_distance);
         vec3 scattering(density_at(medium, x));
-        for (const Gaussian &g : scene_.gaussians) {
-            depth += density_integral_of(g, vec3(0), direction_, t) + density_integral_of(g, x, -way, d);
-            const double y = g.scale * glm::length(x - g.center);
-            scattering += g.amplitude * std::exp(-y * y) * g.colour;
+        for (size_t i = 0; i < seen_.size(); ++i) {
+            const Gaussian &g = scene_.gaussians[i];
+            const double y = seen_[i].scale * (t - seen_[i].middle);
+            depth += integral_of(seen_[i], t) + integral_of(profile_along(g, x, -way), d);
+            scattering += seen_[i].peak * std::exp(-y * y) * g.colour;
         }
         return strength * light_.intensity * medium.scattering * scattering *
                glm::exp(-(medium.scattering + medium.absorption) * std::min(depth, density_limit));
@@ -90,13 +91,10 @@ public:
                     t.push_back(lit.y);
                 }
         }
-        for (const Gaussian &g : scene_.gaussians) {
-            const double m = glm::dot(g.center, direction_);
-            if (g.scale * glm::length(glm::cross(g.center, direction_)) > 12)
-                continue;
-            for (double s : {-6.0, -3.0, -1.5, 0.0, 1.5, 3.0, 6.0})
-                t.push_back(m + s / g.scale);
-        }
+        for (const Profile &p : seen_)
+            if (p.peak > 0)
+                for (double s : {-6.0, -3.0, -1.5, 0.0, 1.5, 3.0, 6.0})
+                    t.push_back(p.middle + s / p.scale);
         std::erase_if(t, [&](double x) { return !(x >= 0 && x <= distance); });
         std::sort(t.begin(), t.end());
         return t;
@@ -107,6 +105,7 @@ private:
     vec3 direction_;
     const Light &light_;
     Aspect aspect_;
+    std::vector<Profile> seen_;  // the Gaussians along the ray
 };
 
 struct Piece {

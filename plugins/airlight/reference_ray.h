@@ -10,6 +10,7 @@ struct ReferenceScene {
     maths_double::Medium medium{};
     std::span<const maths_double::Gaussian> gaussians;
     std::span<const maths_double::Light> lights;
+    maths_double::Camera camera{};  // its axes place the medium's noise
 };
 
 struct ReferenceAirlight {

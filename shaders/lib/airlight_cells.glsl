@@ -30,7 +30,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     vec2 blobs = vec2(far_away, R(0.0));
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
-        float middle = dot(g.center, sight.direction);
+        float middle = sight_profile(medium, camera, g, sight.direction).middle;
         blobs = vec2(min(blobs.x, middle - R(3.0) / g.scale), max(blobs.y, middle + R(3.0) / g.scale));
     }
     float end = min(sight.distance, max(far, blobs.y));
@@ -43,7 +43,8 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         p[k] = density_integral(medium, sight.direction, coarse[k]);
     }
     for (int i = 0; i < sight.count; ++i) {
-        Profile profile = profile_along(listed_gaussian(gaussians, tile_gaussians, sight, i), vec3(R(0.0)), sight.direction);
+        Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
+        Profile profile = sight_profile(medium, camera, g, sight.direction);
         float before = erf(-profile.scale * profile.middle);
         float depth = R(0.886226925453) * profile.peak / profile.scale;
         for (int k = 0; k <= coarse_cells; ++k)
@@ -101,7 +102,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     }
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
-        Profile profile = profile_along(g, vec3(R(0.0)), sight.direction);
+        Profile profile = sight_profile(medium, camera, g, sight.direction);
         float before = erf(-profile.scale * profile.middle);
         float depth = R(0.886226925453) * profile.peak / profile.scale;
         float arm = profile.middle - blobs.x;

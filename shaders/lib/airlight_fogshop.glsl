@@ -31,7 +31,7 @@ PURE Airlight airlight_by_projection(IN(Medium) medium, IN(Camera) camera, IN(Ai
     for (int i = 0; i < sight.count; ++i) {
         int index = int(data_texel(tile_gaussians, sight.first + i).x);
         Gaussian g = gaussian_at(gaussians, index);
-        Profile along = profile_along(g, vec3(R(0.0)), sight.direction);
+        Profile along = sight_profile(medium, camera, g, sight.direction);
         float share = profile_integral(along, R(0.0), sight.distance);
         if (share <= R(0.0))
             continue;

@@ -111,7 +111,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
     vec3 scattering = medium.scattering;
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
-        Profile profile = profile_along(g, vec3(R(0.0)), sight.direction);
+        Profile profile = sight_profile(medium, camera, g, sight.direction);
         float before = erf(-profile.scale * profile.middle);
         float depth = R(0.886226925453) * profile.peak / profile.scale;
         for (int k = 0; k < panel_nodes; ++k)
@@ -261,7 +261,7 @@ PURE Airlight airlight_by_parts(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                     range = vec2(max(lit.x, terms.x), min(lit.y, terms.y));
                 } else {
                     Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, part);
-                    middle = dot(g.center, sight.direction);
+                    middle = sight_profile(medium, camera, g, sight.direction).middle;
                     radius = R(1.0) / g.scale;
                     range = vec2(max(lit.x, middle - R(4.0) * radius), min(lit.y, middle + R(4.0) * radius));
                 }
