@@ -36,11 +36,10 @@ std::vector<brume_plugin_uniform> settings_uniforms(const AirlightSettings &s)
             integer("airlight.environment_order", s.environment_order),
             integer("airlight.light_count", s.light_count),
             integer("airlight.gaussian_count", s.gaussian_count),
-            integer("airlight.smooth_nodes", s.smooth_nodes),
-            integer("airlight.blob_nodes", s.blob_nodes),
-            integer("airlight.near_nodes", s.near_nodes),
-            integer("airlight.dense_nodes", s.dense_nodes),
+            integer("airlight.panels", s.panels),
             integer("airlight.dense_from", s.dense_from),
+            integer("airlight.cells", s.cells),
+            real("airlight.tolerance", s.tolerance),
             real("airlight.near_radii", s.near_radii),
             real("airlight.culled", s.culled)};
 }

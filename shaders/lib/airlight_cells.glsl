@@ -3,6 +3,7 @@
 // Between two edges the mass, its centroid and the transmittance to the camera are exact (erf and exp of each Gaussian at the
 // edges), whatever the density does there, and only the light is taken as it is at the centroid. That is of second order, but
 // costs (edges + cells) per Gaussian where parts cost Gaussians squared, and what depends on the view serves all lights.
+// Where the light varies too much from cell to cell, a second round moves the edges to there.
 
 const int max_cells = 32;
 const int coarse_cells = 16;
@@ -23,7 +24,6 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                                 IN(Sight) sight, int first_light, int last_light)
 {
     bool has_terms = medium.constant > R(0.0) || medium.term_count > 0;
-    float far = has_terms ? terms_range(medium, sight).y : R(0.0);
     vec3 extinction = medium.scattering + medium.absorption;
     float mean_extinction = (extinction.x + extinction.y + extinction.z) / R(3.0);
 
@@ -33,14 +33,16 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         float middle = sight_profile(medium, camera, g, sight.direction).middle;
         blobs = vec2(min(blobs.x, middle - R(3.0) / g.scale), max(blobs.y, middle + R(3.0) / g.scale));
     }
-    float end = min(sight.distance, max(far, blobs.y));
+    float end = min(sight.distance, max(has_terms ? terms_range(medium, sight).y : R(0.0), blobs.y));
     blobs = clamp(blobs, vec2(R(0.0)), vec2(end));
 
-    float coarse[coarse_cells + 1];
+    // The first round's knots, and what the cells between them matter: half their visible mass, half that times the light.
+    float knot[max_cells + 1];
+    float weight[max_cells];
     float p[coarse_cells + 1];
     for (int k = 0; k <= coarse_cells; ++k) {
-        coarse[k] = coarse_edge(blobs, end, k);
-        p[k] = density_integral(medium, sight.direction, coarse[k]);
+        knot[k] = coarse_edge(blobs, end, k);
+        p[k] = density_integral(medium, sight.direction, knot[k]);
     }
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
@@ -48,16 +50,14 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         float before = erf(-profile.scale * profile.middle);
         float depth = R(0.886226925453) * profile.peak / profile.scale;
         for (int k = 0; k <= coarse_cells; ++k)
-            p[k] += depth * (erf(profile.scale * (coarse[k] - profile.middle)) - before);
+            p[k] += depth * (erf(profile.scale * (knot[k] - profile.middle)) - before);
     }
-    // What each coarse cell matters: its visible mass, and that times the solid angle of its light.
     float mass[coarse_cells];
     float lit[coarse_cells];
     float all_mass = R(1e-30);
     float all_lit = R(1e-30);
     for (int k = 0; k < coarse_cells; ++k) {
-        float tau = mean_extinction * max(p[k + 1] - p[k], R(0.0));
-        mass[k] = exp(-min(mean_extinction * p[k], R(80.0))) * one_minus_exp(tau);
+        mass[k] = exp(-min(mean_extinction * p[k], R(80.0))) * one_minus_exp(mean_extinction * max(p[k + 1] - p[k], R(0.0)));
         lit[k] = R(0.0);
         all_mass += mass[k];
     }
@@ -68,87 +68,107 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         Aspect aspect = aspect_of(light, sight.direction);
         float h = max(aspect.height, light.radius);
         for (int k = 0; k < coarse_cells; ++k) {
-            float width = coarse[k + 1] - coarse[k];
-            float angle = atan(h * width, h * h + (coarse[k] - aspect.foot) * (coarse[k + 1] - aspect.foot));
+            float width = knot[k + 1] - knot[k];
+            float angle = atan(h * width, h * h + (knot[k] - aspect.foot) * (knot[k + 1] - aspect.foot));
             float share = mass[k] * angle / (h * max(width, R(1e-20)));
             lit[k] += share;
             all_lit += share;
         }
     }
-    // Fine edges at equal steps of that.
-    int steps = clamp(settings.cells, 1, max_cells);
-    float edge[max_cells + 1];
-    float to[max_cells + 1];       // P there
-    float moment[max_cells + 1];   // int rho (t - blobs.x) dt
-    vec3 coloured[max_cells + 1];  // int colour rho dt
-    int k = 0;
-    float passed = R(0.0);
-    edge[0] = R(0.0);
-    for (int j = 1; j <= steps; ++j) {
-        float target = float(j) / float(steps);
-        float weight = R(0.5) * (mass[k] / all_mass + (all_lit > R(1e-29) ? lit[k] / all_lit : mass[k] / all_mass));
-        while (k < coarse_cells - 1 && passed + weight < target) {
-            passed += weight;
-            ++k;
-            weight = R(0.5) * (mass[k] / all_mass + (all_lit > R(1e-29) ? lit[k] / all_lit : mass[k] / all_mass));
-        }
-        edge[j] = mix(coarse[k], coarse[k + 1], clamp((target - passed) / max(weight, R(1e-20)), R(0.0), R(1.0)));
-    }
-    edge[steps] = end;
-    for (int j = 0; j <= steps; ++j) {
-        to[j] = density_integral(medium, sight.direction, edge[j]);
-        moment[j] = R(0.0);
-        coloured[j] = vec3(to[j]);
-    }
-    for (int i = 0; i < sight.count; ++i) {
-        Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
-        Profile profile = sight_profile(medium, camera, g, sight.direction);
-        float before = erf(-profile.scale * profile.middle);
-        float depth = R(0.886226925453) * profile.peak / profile.scale;
-        float arm = profile.middle - blobs.x;
-        for (int j = 0; j <= steps; ++j) {
-            float x = min(profile.scale * abs(edge[j] - profile.middle), gaussian_limit);
-            float part = depth * (erf(profile.scale * (edge[j] - profile.middle)) - before);
-            to[j] += part;
-            moment[j] += arm * part - R(0.5) * profile.peak / (profile.scale * profile.scale) * exp(-x * x);
-            coloured[j] += g.colour * part;
-        }
-    }
+    for (int k = 0; k < coarse_cells; ++k)
+        weight[k] = all_lit > R(1e-29) ? mass[k] / all_mass + lit[k] / all_lit : mass[k];
 
     Airlight total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
-    for (int l = first_light; l < last_light; ++l) {
-        Light light = light_at(lights, l);
-        Aspect aspect = aspect_of(light, sight.direction);
-        vec3 before = vec3(R(0.0));
-        vec3 last = vec3(R(0.0));
-        vec3 last_mass = vec3(R(0.0));
-        for (int j = 0; j < steps; ++j) {
-            float p0 = to[j];
-            float dp = to[j + 1] - p0;
-            if (dp <= R(0.0))
-                continue;
-            // The terms' own centroid is near enough to the middle.
-            float terms = density_integral(medium, sight.direction, edge[j + 1]) - density_integral(medium, sight.direction, edge[j]);
-            float center = (moment[j + 1] - moment[j] + terms * (R(0.5) * (edge[j] + edge[j + 1]) - blobs.x)) / dp + blobs.x;
-            float t = clamp(center, edge[j], edge[j + 1]);
-            vec3 tau = extinction * dp;
-            vec3 visible = medium.scattering * max(coloured[j + 1] - coloured[j], vec3(R(0.0))) *
-                           vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z)) *
-                           transmittance(medium, min(p0, density_limit));
-            vec3 f = vec3(R(0.0));
-            float strength = lit_strength(medium, light, aspect, sight.direction, t);
-            if (strength > R(0.0)) {
-                vec3 point = t * sight.direction;
-                float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
-                f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
+    int knots = coarse_cells;
+    int steps = clamp(settings.cells, 1, max_cells);
+    for (int round = 0; round < 2; ++round) {
+        float whole = R(1e-30);
+        for (int k = 0; k < knots; ++k)
+            whole += weight[k];
+        float edge[max_cells + 1];
+        float to[max_cells + 1];       // P there
+        float moment[max_cells + 1];   // int rho (t - blobs.x) dt
+        vec3 coloured[max_cells + 1];  // int colour rho dt
+        int k = 0;
+        float passed = R(0.0);
+        for (int j = 0; j <= steps; ++j) {
+            float target = whole * float(j) / float(steps);
+            while (k < knots - 1 && passed + weight[k] < target) {
+                passed += weight[k];
+                ++k;
             }
-            total.radiance += f * visible;
-            if (j > 1)
-                total.error += abs(f - R(2.0) * last + before) * last_mass / R(5.0);
-            before = last;
-            last = f;
-            last_mass = visible;
+            edge[j] = mix(knot[k], knot[k + 1], clamp((target - passed) / max(weight[k], R(1e-30)), R(0.0), R(1.0)));
+            if (j == steps)
+                edge[j] = end;
+            to[j] = density_integral(medium, sight.direction, edge[j]);
+            moment[j] = R(0.0);
+            coloured[j] = vec3(to[j]);
         }
+        for (int i = 0; i < sight.count; ++i) {
+            Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
+            Profile profile = sight_profile(medium, camera, g, sight.direction);
+            float before = erf(-profile.scale * profile.middle);
+            float depth = R(0.886226925453) * profile.peak / profile.scale;
+            float arm = profile.middle - blobs.x;
+            for (int j = 0; j <= steps; ++j) {
+                float x = min(profile.scale * abs(edge[j] - profile.middle), gaussian_limit);
+                float part = depth * (erf(profile.scale * (edge[j] - profile.middle)) - before);
+                to[j] += part;
+                moment[j] += arm * part - R(0.5) * profile.peak / (profile.scale * profile.scale) * exp(-x * x);
+                coloured[j] += g.colour * part;
+            }
+        }
+        // From here on: the centroid in `moment`, what is visible of the mass in `coloured`, the errors in `weight`.
+        for (int j = 0; j < steps; ++j) {
+            float dp = max(to[j + 1] - to[j], R(0.0));
+            float terms = density_integral(medium, sight.direction, edge[j + 1]) - density_integral(medium, sight.direction, edge[j]);
+            // The terms' own centroid is near enough to the middle.
+            float center = moment[j + 1] - moment[j] + terms * (R(0.5) * (edge[j] + edge[j + 1]) - blobs.x);
+            moment[j] = clamp(blobs.x + center / max(dp, R(1e-30)), edge[j], edge[j + 1]);
+            vec3 tau = extinction * dp;
+            coloured[j] = medium.scattering * max(coloured[j + 1] - coloured[j], vec3(R(0.0))) *
+                          vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z)) *
+                          transmittance(medium, min(to[j], density_limit));
+            weight[j] = R(0.0);
+        }
+        total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
+        for (int l = first_light; l < last_light; ++l) {
+            Light light = light_at(lights, l);
+            Aspect aspect = aspect_of(light, sight.direction);
+            vec3 before = vec3(R(0.0));
+            vec3 last = vec3(R(0.0));
+            for (int j = 0; j < steps; ++j) {
+                float t = moment[j];
+                vec3 f = vec3(R(0.0));
+                float strength = lit_strength(medium, light, aspect, sight.direction, t);
+                if (strength > R(0.0)) {
+                    vec3 point = t * sight.direction;
+                    float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
+                    f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
+                }
+                total.radiance += f * coloured[j];
+                if (j > 1) {
+                    vec3 error = abs(f - R(2.0) * last + before) * coloured[j - 1] / R(5.0);
+                    total.error += error;
+                    weight[j - 1] += error.x + error.y + error.z;
+                }
+                before = last;
+                last = f;
+            }
+        }
+        float error = total.error.x + total.error.y + total.error.z;
+        if (error <= R(3.0) * settings.tolerance * (total.radiance.x + total.radiance.y + total.radiance.z))
+            return total;
+        // Of second order: best with steps in the ratio of the cube roots of the cells' errors.
+        knots = steps;
+        float beside = R(0.0);
+        for (int j = 0; j < steps; ++j) {
+            float e = max(max(weight[j], beside), R(1e-3) * error / float(steps));
+            beside = weight[j];
+            knot[j] = edge[j];
+            weight[j] = exp(log(max(e, R(1e-37))) / R(3.0));
+        }
+        knot[steps] = end;
     }
     return total;
 }
