@@ -95,6 +95,7 @@ brume_status CpuPasses::gather(const Gathering &to)
     if (!to.environment)
         settings.environment_order = 0;
     const ivec2 light_range(to.first_light, to.last_light);
+    const int tier = tier_of(state_);
     const ivec2 size(state_.width, state_.height);
     const Texture depth = texture_of(depth_), gaussian_density = texture_of(gaussian_density_), tiles = texture_of(tiles_),
                   gaussians = texture_of(gaussians_), lights = texture_of(lights_),
@@ -105,7 +106,7 @@ brume_status CpuPasses::gather(const Gathering &to)
     return for_rows(services_, host_, "gather", radiance.height, 4, [&](int y) {
         for (int x = 0; x < radiance.width; ++x) {
             const ivec2 pixel = representative(ivec2(x, y), to.reduction, size);
-            const Airlight a = airlight_at(medium_, camera_, settings, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
+            const Airlight a = airlight_at(tier, medium_, camera_, settings, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
             store(radiance, x, y, vec4(a.radiance, 1.0f));
             if (error.data)
                 store(error, x, y, vec4(a.error, 1.0f));

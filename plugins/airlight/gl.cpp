@@ -32,8 +32,7 @@ brume_plugin_uniform pair(const char *name, const ivec2 &value)
 // `uniform AirlightSettings airlight`, member by member.
 std::vector<brume_plugin_uniform> settings_uniforms(const AirlightSettings &s)
 {
-    return {integer("airlight.tier", s.tier),
-            integer("airlight.environment_order", s.environment_order),
+    return {integer("airlight.environment_order", s.environment_order),
             integer("airlight.light_count", s.light_count),
             integer("airlight.gaussian_count", s.gaussian_count),
             integer("airlight.panels", s.panels),
@@ -142,7 +141,7 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
         return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
     };
     if (state.radiance)
-        if (brume_status s = compile("airlight_gather.comp", "", state.gather))
+        if (brume_status s = compile("airlight_gather.comp", define("TIER", uint32_t(tier_of(state))), state.gather))
             return s;
     if (state.parameters.tier == Tier::fogshop)
         if (brume_status s = compile("airlight_blobs.comp", "", state.blobs))

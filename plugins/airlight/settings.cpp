@@ -4,12 +4,16 @@ namespace airlight {
 
 using namespace brume::maths_float;
 
+int tier_of(const State &state)
+{
+    constexpr int tiers[] = {airlight_nodes, airlight_fogshop, airlight_sun, airlight_reference};
+    return tiers[int(state.parameters.tier)];
+}
+
 AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene)
 {
     const double e = state.parameters.max_error;
     AirlightSettings s{};
-    constexpr int tiers[] = {airlight_nodes, airlight_fogshop, airlight_sun, airlight_reference};
-    s.tier = tiers[int(state.parameters.tier)];
     s.environment_order = state.environment_order;
     s.light_count = int(scene.light_count);
     s.gaussian_count = int(scene.gaussian_count);

@@ -3,6 +3,9 @@
 
 namespace airlight {
 
+// airlight_nodes, ...: the tier as the maths know it.
+int tier_of(const State &state);
+
 // How finely the tiers integrate a frame, from the error asked.
 brume::maths_float::AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene);
 

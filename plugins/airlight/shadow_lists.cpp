@@ -72,7 +72,10 @@ vec3 in_camera_axes(const brume_plugin_camera &camera, vec3 w)
 bool ShadowLists::refresh(const brume_plugin_scene &scene, bool moved, bool with_camera)
 {
     const Medium medium = medium_of(scene);
-    grid_ = std::clamp(int(std::bit_ceil(uint32_t(std::sqrt(double(scene.gaussian_count)) / 2))), 1, 1 << most_levels);
+    // About four cells per Gaussian, fewer where there are many lights.
+    const double most_cells = double(most_entries) / 16 / (1.0 + scene.light_count);
+    const double cells_wanted = std::min(4.0 * scene.gaussian_count, most_cells);
+    grid_ = std::clamp(int(std::bit_floor(uint32_t(std::sqrt(cells_wanted)))), 1, 1 << most_levels);
     const uint32_t per_origin = uint32_t(grid_) * uint32_t(grid_);
     spheres_.resize(scene.gaussian_count);
     for (uint32_t i = 0; i < scene.gaussian_count; ++i) {

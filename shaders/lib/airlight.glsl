@@ -8,7 +8,6 @@ const int airlight_nodes = 2;
 const int airlight_reference = 3;
 
 struct AirlightSettings {
-    int tier;
     int light_count;
     int gaussian_count;
     int environment_order; // of the spherical harmonics, 0 (none) to 6

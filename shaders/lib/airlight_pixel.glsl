@@ -4,9 +4,10 @@
                               sampler2D environment, sampler2D environment_table
 #define AIRLIGHT_PIXEL_PASSED depth, gaussian_density, tiles, AIRLIGHT_PASSED, environment, environment_table
 
-// One pixel's airlight of some lights and, with the first of them, of the environment.
+// One pixel's airlight of some lights, and of the environment. GLSL passes a constant for the tier: compilers then leave out the
+// others, of which software GL would take seconds to compile.
 
-PURE Airlight airlight_at(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_PIXEL_IMAGES,
+PURE Airlight airlight_at(int tier, IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_PIXEL_IMAGES,
                           ivec2 pixel, ivec2 size, ivec2 light_range)
 {
     Ray ray = pixel_ray(camera, vec2(pixel) + R(0.5), texelFetch(depth, pixel, 0).x);
@@ -14,7 +15,7 @@ PURE Airlight airlight_at(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetti
         return Airlight(vec3(R(0.0)), vec3(R(0.0)));
     ivec2 range = settings.gaussian_count > 0 ? tile_range(tiles, size.x, pixel) : ivec2(0);
     Sight sight = Sight(ray.direction, ray.distance, range.x, range.y);
-    Airlight a = airlight_of_tier(settings.tier, medium, camera, settings, AIRLIGHT_PASSED, sight, light_range.x, light_range.y);
+    Airlight a = airlight_of_tier(tier, medium, camera, settings, AIRLIGHT_PASSED, sight, light_range.x, light_range.y);
     if (settings.environment_order > 0) {
         float gaussian_part = settings.gaussian_count > 0 ? texelFetch(gaussian_density, pixel, 0).x : R(0.0);
         a.radiance += environment_airlight(medium, camera, environment, environment_table, settings.environment_order,

@@ -1,3 +1,4 @@
+// TIER is set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"
@@ -49,7 +50,7 @@ void main()
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
     ivec2 pixel = representative(p, reduction, size);
-    Airlight a = airlight_at(brume_medium, brume_camera, airlight, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
+    Airlight a = airlight_at(TIER, brume_medium, brume_camera, airlight, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
     imageStore(radiance, p, vec4(a.radiance, 1.0));
     imageStore(error, p, vec4(a.error, 1.0));
     Ray ray = pixel_ray(brume_camera, vec2(pixel) + 0.5, texelFetch(depth, pixel, 0).r);
