@@ -105,7 +105,10 @@ GlBackend::~GlBackend()
 std::shared_ptr<Image> GlBackend::create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel)
 {
     device_.guard();
-    return pool_->take(width, height, channels, pixel);
+    auto image = pool_->take(width, height, channels, pixel);
+    // What another plan left here must not come back through a fetch of weight 0: 0 times NaN is NaN.
+    glClearTexImage(image->texture, 0, GL_RGBA, GL_FLOAT, nullptr);
+    return image;
 }
 
 std::shared_ptr<Program> GlBackend::compile(const std::string &name, const std::string &source, const std::string &defines)
