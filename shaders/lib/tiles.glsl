@@ -35,7 +35,11 @@ PURE vec2 tile_density(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians
     ivec2 range = tile_range(tiles, width, pixel);
     for (int i = 0; i < range.y; ++i) {
         int index = int(data_texel(tile_gaussians, range.x + i).x);
-        sum += profile_density_moment(sight_profile(medium, camera, gaussian_at(gaussians, index), ray.direction), ray.distance);
+        Gaussian g = gaussian_at(gaussians, index);
+        Profile p = sight_profile(medium, camera, g, ray.direction);
+        // Most of a list is passed at a distance.
+        if (p.peak > R(0.3) * reach_share * g.amplitude)
+            sum += profile_density_moment(p, ray.distance);
     }
     return sum;
 }
