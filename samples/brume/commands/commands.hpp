@@ -18,5 +18,6 @@ void add_compare(CLI::App &app, Action &chosen);
 void add_effects(CLI::App &app, Action &chosen);
 void add_schema(CLI::App &app, Action &chosen);
 void add_sheet(CLI::App &app, Action &chosen);
+void add_media(CLI::App &app, Action &chosen);
 
 }  // namespace brume::tool

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "environment/environment.hpp"
+#include "run/shot.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -100,24 +101,7 @@ Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) cons
     const PartInfo &part = file.parts()[color.part];
     const Imf::Header &header = file.header(color.part);
     const Imath::Box2i &display = header.displayWindow();
-    shot.format.width = part.width();
-    shot.format.height = part.height();
-    // Rays come from the display window, whatever part of it, or of what surrounds it, the data window covers.
-    shot.format.display_x = display.min.x - part.data_window.min.x;
-    shot.format.display_y = display.min.y - part.data_window.min.y;
-    shot.format.display_width = display.max.x - display.min.x + 1;
-    shot.format.display_height = display.max.y - display.min.y + 1;
-    const DepthKind kind = options_.picture.depth_kind();
-    constexpr std::uint32_t kinds[] = {BRUME_DEPTH_PLANAR, BRUME_DEPTH_RAY, BRUME_DEPTH_INVERSE, BRUME_DEPTH_NORMALIZED};
-    shot.format.depth_kind = kinds[kind.type];
-    shot.format.depth_range[0] = kind.near;
-    shot.format.depth_range[1] = kind.far;
-    shot.format.nonpositive = kind.zero_is_near ? BRUME_NONPOSITIVE_NEAR : BRUME_NONPOSITIVE_FAR;
-    shot.format.far_distance = options_.picture.far;
-    const Sky sky = options_.picture.sky();
-    constexpr std::uint32_t skies[] = {BRUME_SKY_FOG, BRUME_SKY_KEEP, BRUME_SKY_CLAMP};
-    shot.format.sky = skies[sky.type];
-    shot.format.sky_distance = sky.distance;
+    shot.format = format_of(part.data_window, display, options_.picture);
     for (const LayerOutput &output : outputs_)
         shot.format.outputs |= output.flag;
 
@@ -135,17 +119,7 @@ Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) cons
         fmt::format("field of view: {}; pose: {}",
                     source(BRUME_CAMERA_FIELD_OF_VIEW, camera.projection_source, camera.projection.has_value()),
                     source(BRUME_CAMERA_POSE, camera.pose_source, camera.pose.has_value()));
-    if (camera.projection) {
-        shot.camera.given |= BRUME_CAMERA_FIELD_OF_VIEW;
-        shot.camera.vertical_fov = camera.projection->vertical_fov();
-        shot.camera.pixel_aspect = camera.projection->pixel_aspect(display);
-        shot.camera.center[0] = camera.projection->center()[0];
-        shot.camera.center[1] = camera.projection->center()[1];
-    }
-    if (camera.pose) {
-        shot.camera.given |= BRUME_CAMERA_POSE;
-        std::copy(camera.pose->begin(), camera.pose->end(), shot.camera.camera_to_world);
-    }
+    shot.camera = camera_of(camera, display);
     return shot;
 }
 

@@ -1,0 +1,48 @@
+#include "run/shot.hpp"
+
+#include <algorithm>
+
+namespace brume::tool {
+
+brume_format format_of(const Imath::Box2i &data, const Imath::Box2i &display, const PictureOptions &options)
+{
+    brume_format format = BRUME_FORMAT_INIT;
+    format.width = data.max.x - data.min.x + 1;
+    format.height = data.max.y - data.min.y + 1;
+    // Rays come from the display window, whatever part of it, or of what surrounds it, the data window covers.
+    format.display_x = display.min.x - data.min.x;
+    format.display_y = display.min.y - data.min.y;
+    format.display_width = display.max.x - display.min.x + 1;
+    format.display_height = display.max.y - display.min.y + 1;
+    const DepthKind kind = options.depth_kind();
+    constexpr std::uint32_t kinds[] = {BRUME_DEPTH_PLANAR, BRUME_DEPTH_RAY, BRUME_DEPTH_INVERSE, BRUME_DEPTH_NORMALIZED};
+    format.depth_kind = kinds[kind.type];
+    format.depth_range[0] = kind.near;
+    format.depth_range[1] = kind.far;
+    format.nonpositive = kind.zero_is_near ? BRUME_NONPOSITIVE_NEAR : BRUME_NONPOSITIVE_FAR;
+    format.far_distance = options.far;
+    const Sky sky = options.sky();
+    constexpr std::uint32_t skies[] = {BRUME_SKY_FOG, BRUME_SKY_KEEP, BRUME_SKY_CLAMP};
+    format.sky = skies[sky.type];
+    format.sky_distance = sky.distance;
+    return format;
+}
+
+brume_camera camera_of(const Camera &camera, const Imath::Box2i &display)
+{
+    brume_camera result = BRUME_CAMERA_INIT;
+    if (camera.projection) {
+        result.given |= BRUME_CAMERA_FIELD_OF_VIEW;
+        result.vertical_fov = camera.projection->vertical_fov();
+        result.pixel_aspect = camera.projection->pixel_aspect(display);
+        result.center[0] = camera.projection->center()[0];
+        result.center[1] = camera.projection->center()[1];
+    }
+    if (camera.pose) {
+        result.given |= BRUME_CAMERA_POSE;
+        std::copy(camera.pose->begin(), camera.pose->end(), result.camera_to_world);
+    }
+    return result;
+}
+
+}  // namespace brume::tool
