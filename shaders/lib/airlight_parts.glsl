@@ -123,7 +123,13 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         }
     }
     vec3 sum = vec3(R(0.0));
-    float noise = R(0.0);  // of rounding: exponents lose as many digits as they have before the point
+    // Rounding: exponents lose as many digits as they have before the point, and so do narrow angles and penumbras.
+    float noise = R(0.0);
+    float digits = R(6.0);
+    if (light.type != light_directional)
+        digits += R(0.1) * length(light.position) / aspect.height;
+    if (light.type == light_spot)
+        digits += R(0.7) / max(light.cos_inner - light.cos_outer, R(1e-4));
     float value[8];
     for (int k = 0; k < panel_nodes; ++k) {
         vec3 f = vec3(R(0.0));
@@ -139,7 +145,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         value[k] = (f.x + f.y + f.z) / R(3.0);
         float weight = panel_weight[k < 4 ? 3 - k : k - 4];
         sum += weight * f;
-        noise += weight * value[k] * (R(6.0) + depth);
+        noise += weight * value[k] * (digits + depth);
     }
     // How fast the integrand's Legendre coefficients 4 to 7 fall off tells how large those from 16 on are that the nodes
     // cannot see.
@@ -159,10 +165,12 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
     float upper = max(abs(c6), abs(c7));
     float fall = min(upper / max(lower, R(1e-37)), R(1.0));
     float error = upper * fall * fall * fall;
-    if (path.kind == path_bell && dz == R(1.0))
-        error = R(0.04) * upper * fall;
-    else if (path.crowded == 2 && dz == R(1.0))
-        error = R(0.25) * upper * fall;
+    if (path.kind == path_bell)
+        error = dz == R(1.0) ? R(0.04) * upper * fall : R(0.5) * error * fall;
+    else if (path.crowded == 2)
+        error = dz == R(1.0) ? R(0.25) * upper * fall : R(0.5) * error * fall;
+    else if (path.crowded == 0)
+        error *= R(2.0) * fall;
     return Panel(sum, error + R(9e-8) * noise, upper * fall * fall);
 }
 
@@ -203,8 +211,11 @@ PURE Path terms_path(IN(Medium) medium, IN(Light) light, IN(Aspect) aspect, vec2
 {
     float length = range.y - range.x;
     float x = max(max(range.x - aspect.foot, aspect.foot - range.y), R(0.0));
-    if (light.type == light_directional || max(aspect.height, x) > length)
-        return Path(path_decay, range.x, decay, R(0.0), one_minus_exp(length / decay), R(0.0), 0);
+    if (light.type == light_directional || max(aspect.height, x) > length) {
+        // The logarithm of what floats leave of 1 - z reaches no farther than 18 lengths.
+        float scale = max(decay, length / R(18.0));
+        return Path(path_decay, range.x, scale, R(0.0), one_minus_exp(length / scale), R(0.0), 0);
+    }
     float h = max(aspect.height, light.radius);
     float g = min(medium.phase.x, largest_asymmetry);
     float first = half_turn_tangent(range.x - aspect.foot, h);

@@ -47,27 +47,6 @@ PURE float scaled_erfc(float x)
     return p / (R(1.0) + R(2.0) * y);
 }
 
-// Giles 2010, "Approximating the erfinv function"; 3e-7 relative. |x| < 1.
-PURE float inverse_erf(float x)
-{
-    float w = -log(max((R(1.0) - x) * (R(1.0) + x), R(1e-7)));
-    float p;
-    if (w < R(5.0)) {
-        w -= R(2.5);
-        p = R(3.43273939e-7) + R(2.81022636e-8) * w;
-        p = -R(4.39150654e-6) + w * (-R(3.5233877e-6) + w * p);
-        p = -R(0.00125372503) + w * (R(0.00021858087) + w * p);
-        p = R(1.50140941) + w * (R(0.246640727) + w * (-R(0.00417768164) + w * p));
-    } else {
-        w = sqrt(w) - R(3.0);
-        p = R(0.000100950558) - R(0.000200214257) * w;
-        p = -R(0.00367342844) + w * (R(0.00134934322) + w * p);
-        p = -R(0.0076224613) + w * (R(0.00573950773) + w * p);
-        p = R(2.83297682) + w * (R(1.00167406) + w * (R(0.00943887047) + w * p));
-    }
-    return p * x;
-}
-
 // int_a^(a+width) e^(-x^2) dx, to a few 1e-7 of itself wherever the ends lie: a difference of two erf loses all digits on
 // the flanks and for narrow intervals.
 PURE float gaussian_area(float a, float width)

@@ -1,47 +1,133 @@
 #pragma once
-// Media, lights and the images that shaders/lib reads them from, in both precisions, for tests of the airlight's maths.
-#include <cmath>
+// One ray of a case through the tiers, as the CPU backend runs them, and through the reference.
 #include <vector>
 
+#include "airlight_cases.h"
 #include "maths.hpp"
+#include "quality.h"
 #include "reference_ray.h"
+#include "tables.h"
 
-// The data images of one scene with a single cell for each origin's directions, so that every list holds all Gaussians.
-template <class Real, class Texture> class DataImages {
+namespace airlight_cases {
+
+namespace narrow = brume::maths_float;
+
+inline narrow::Medium narrowed(const Medium &m)
+{
+    narrow::Medium n{};
+    n.scattering = m.scattering;
+    n.absorption = m.absorption;
+    n.luminance = m.luminance;
+    n.phase = m.phase;
+    n.constant = float(m.constant);
+    n.term_count = m.term_count;
+    for (int i = 0; i < m.term_count; ++i)
+        n.terms[i] = m.terms[i];
+    return n;
+}
+
+// A case's data images with a single cell for each origin's directions: every list holds all Gaussians.
+class World {
 public:
-    template <class Gaussians, class Lights> DataImages(const Gaussians &gaussians, const Lights &lights)
+    explicit World(const Case &c, double max_error = 0.01) : case_(c), medium_(narrowed(c.medium))
     {
-        const int n = int(gaussians.size());
-        for (const auto &g : gaussians)
+        const int n = int(c.gaussians.size());
+        for (const Gaussian &g : c.gaussians)
             append(gaussians_, {g.center.x, g.center.y, g.center.z, g.scale, g.amplitude, g.colour.x, g.colour.y, g.colour.z});
-        for (const auto &l : lights)
+        for (const Light &l : c.lights)
             append(lights_, {l.position.x, l.position.y, l.position.z, l.radius, l.direction.x, l.direction.y, l.direction.z,
-                             l.cos_outer, l.intensity.x, l.intensity.y, l.intensity.z, l.cos_inner, double(l.type), l.distance,
-                             0.0, 0.0});
+                             l.cos_outer, l.intensity.x, l.intensity.y, l.intensity.z, l.cos_inner, double(l.type), l.distance, 0, 0});
         for (int i = 0; i < n; ++i)
             append(indices_, {double(i)});
-        append(cells_, {0.0, double(n), 0.0, 0.0});
-        for (size_t origin = 0; origin <= lights.size(); ++origin)
-            append(origins_, {0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.5, 0.0, 1.0, 0.0, 0.0});
+        append(cells_, {0, double(n), 0, 0});
+        for (size_t origin = 0; origin <= c.lights.size(); ++origin)
+            append(origins_, {0, 0, 0, 0.5, 0, 0, 0, 0.5, 0, 1, 0, 0});
+        camera_.right = {1, 0, 0};
+        camera_.up = {0, 1, 0};
+        camera_.back = {0, 0, 1};
+        settings.light_count = int(c.lights.size());
+        settings.gaussian_count = n;
+        brume::airlight::set_quality(settings, max_error);
     }
 
-    Texture gaussians() const { return texture(gaussians_, 4); }
-    Texture lights() const { return texture(lights_, 4); }
-    Texture indices() const { return texture(indices_, 1); }
-    Texture cells() const { return texture(cells_, 4); }
-    Texture origins() const { return texture(origins_, 4); }
-
-    static Texture texture(const std::vector<Real> &values, int channels)
+    narrow::Airlight airlight(int tier)
     {
-        return {values.data(), 1024 * channels, 1024, int(values.size() / size_t(channels) + 1023) / 1024, channels};
+        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4), cell_gaussians = image(indices_, 1),
+                              shadow_origins = image(origins_, 4), lights = image(lights_, 4), tile_gaussians = image(indices_, 1);
+        if (tier == narrow::airlight_fogshop && blob_density_.empty())
+            for (const Gaussian &g : case_.gaussians) {
+                const narrow::vec3 center(g.center);
+                blob_density_.push_back(narrow::camera_density(SHADOW_PASSED, camera_, center));
+                for (int l = 0; l < settings.light_count; ++l)
+                    blob_density_.push_back(narrow::shadow_density(SHADOW_PASSED, camera_, l, narrow::light_at(lights, l), center));
+            }
+        static const std::vector<float> table = brume::airlight::sun_table();
+        const narrow::Texture blob_density = image(blob_density_, 1), sun_table = image(table, 1);
+        const narrow::Sight sight{narrow::vec3(case_.direction), float(case_.distance), 0, settings.gaussian_count};
+        return narrow::airlight_of_tier(tier, medium_, camera_, settings, AIRLIGHT_PASSED, sight, 0, settings.light_count);
     }
+
+    brume::airlight::ReferenceAirlight reference() const
+    {
+        return brume::airlight::reference_airlight({case_.medium, case_.gaussians, case_.lights}, case_.direction, case_.distance,
+                                                   0, int(case_.lights.size()));
+    }
+
+    narrow::AirlightSettings settings{};
 
 private:
-    static void append(std::vector<Real> &to, std::initializer_list<double> values)
+    static void append(std::vector<float> &to, std::initializer_list<double> values)
     {
         for (double v : values)
-            to.push_back(Real(v));
+            to.push_back(float(v));
+    }
+    static narrow::Texture image(const std::vector<float> &values, int channels)
+    {
+        return {values.data(), 1024 * channels, 1024, int(values.size()) / (1024 * channels) + 1, channels};
     }
 
-    std::vector<Real> gaussians_, lights_, indices_, cells_, origins_;
+    const Case &case_;
+    narrow::Medium medium_;
+    narrow::Camera camera_{};
+    std::vector<float> gaussians_, lights_, indices_, cells_, origins_, blob_density_;
 };
+
+// Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send less
+// than 1e-12 are left out: nothing arrives.
+struct Errors {
+    std::vector<double> relative;
+    std::vector<double> overestimate;  // estimate / error
+    double seconds = 0;
+
+    void add(const narrow::Airlight &found, vec3 exact)
+    {
+        const double reference = (exact.x + exact.y + exact.z) / 3;
+        const double value = (double(found.radiance.x) + found.radiance.y + found.radiance.z) / 3;
+        const double estimate = (double(found.error.x) + found.error.y + found.error.z) / 3;
+        if (reference < 1e-12)
+            return;
+        const double error = std::abs(value - reference);
+        relative.push_back(error / reference);
+        overestimate.push_back(estimate / std::max(error, 1e-8 * reference));
+    }
+    double mean() const
+    {
+        double sum = 0;
+        for (double e : relative)
+            sum += e;
+        return sum / double(relative.size());
+    }
+    double covered() const
+    {
+        return double(std::count_if(overestimate.begin(), overestimate.end(), [](double r) { return r >= 1; })) /
+               double(overestimate.size());
+    }
+};
+
+inline double quantile(std::vector<double> v, double share)
+{
+    std::sort(v.begin(), v.end());
+    return v.at(std::min(v.size() - 1, size_t(share * double(v.size()))));
+}
+
+}  // namespace airlight_cases
