@@ -48,7 +48,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
         Profile profile = sight_profile(medium, camera, g, sight.direction);
         float before = erf(-profile.scale * profile.middle);
-        float depth = R(0.886226925453) * profile.peak / profile.scale;
+        float depth = R(0.886226925453) * profile_length(profile);
         for (int k = 0; k <= coarse_cells; ++k)
             p[k] += depth * (erf(profile.scale * (knot[k] - profile.middle)) - before);
     }
@@ -108,13 +108,13 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
             Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
             Profile profile = sight_profile(medium, camera, g, sight.direction);
             float before = erf(-profile.scale * profile.middle);
-            float depth = R(0.886226925453) * profile.peak / profile.scale;
+            float depth = R(0.886226925453) * profile_length(profile);
             float arm = profile.middle - blobs.x;
             for (int j = 0; j <= steps; ++j) {
                 float x = min(profile.scale * abs(edge[j] - profile.middle), gaussian_limit);
                 float part = depth * (erf(profile.scale * (edge[j] - profile.middle)) - before);
                 to[j] += part;
-                moment[j] += arm * part - R(0.5) * profile.peak / (profile.scale * profile.scale) * exp(-x * x);
+                moment[j] += arm * part - R(0.5) * profile_length(profile) / profile.scale * exp(-x * x);
                 coloured[j] += g.colour * part;
             }
         }

@@ -113,7 +113,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
         Profile profile = sight_profile(medium, camera, g, sight.direction);
         float before = erf(-profile.scale * profile.middle);
-        float depth = R(0.886226925453) * profile.peak / profile.scale;
+        float depth = R(0.886226925453) * profile_length(profile);
         for (int k = 0; k < panel_nodes; ++k)
             p[k] += depth * (erf(profile.scale * (t[k] - profile.middle)) - before);
         if (i == part) {

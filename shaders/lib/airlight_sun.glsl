@@ -34,7 +34,7 @@ PURE float sun_function_error(float u, float v)
     float du = sun_table_limit / float(sun_table_size - 1);
     float dv = half_pi / float(sun_table_size - 1);
     float t = min(tan(min(v, half_pi - R(0.5) * dv)), R(1e4));
-    float w = max(u, R(0.5) * du);
+    float w = max(u - R(0.5) * du, R(0.37) * du);  // it is u log u at u = 0
     return R(0.125) * (du * du * one_minus_exp(w * t) / w + dv * dv * u * (R(1.0) + t * t) * exp(-u * t)) +
            (u > sun_table_limit ? exp(-sun_table_limit * t) : R(0.0));
 }

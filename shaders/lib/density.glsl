@@ -65,7 +65,8 @@ PURE float mean_square_exponential(float q)
         return R(1.0) / R(3.0) -
                q * (R(0.25) - q * (R(0.1) - q * (R(1.0) / R(36.0) -
                q * (R(1.0) / R(168.0) - q * (R(1.0) / R(960.0) - q * (R(1.0) / R(6480.0) - q / R(50400.0)))))));
-    return (R(2.0) - exp(-q) * (q * q + R(2.0) * q + R(2.0))) / q / q / q;
+    float e = min(q, R(100.0));
+    return (R(2.0) - exp(-e) * (e * e + R(2.0) * e + R(2.0))) / q / q / q;
 }
 
 // int_0^1 (1 - s)^2 e^(-q s) ds for q >= 0.

@@ -92,9 +92,15 @@ PURE float profile_density(IN(Profile) p, float t)
     return p.peak * exp(-x * x);
 }
 
+// peak / a, bounded so that it may be multiplied by nothing.
+PURE float profile_length(IN(Profile) p)
+{
+    return min(p.peak / p.scale, density_limit);
+}
+
 PURE float profile_integral(IN(Profile) p, float from, float to)
 {
-    return min(p.peak * gaussian_area(p.scale * (from - p.middle), p.scale * (to - from)) / p.scale, density_limit);
+    return min(profile_length(p) * gaussian_area(p.scale * (from - p.middle), p.scale * (to - from)), density_limit);
 }
 
 // The same to 4e-7 of the whole line's integral, which is what an exponent needs, and cheaper.
@@ -103,7 +109,7 @@ PURE float profile_depth(IN(Profile) p, float from, float to)
     if (p.peak <= R(0.0))
         return R(0.0);
     float sum = erf(p.scale * (to - p.middle)) - erf(p.scale * (from - p.middle));
-    return min(R(0.886226925453) * p.peak / p.scale * max(sum, R(0.0)), density_limit);
+    return min(R(0.886226925453) * profile_length(p) * max(sum, R(0.0)), density_limit);
 }
 
 // int rho dt [m at unit density] over [from, to] (eq. 31), in [0, density_limit]. `to` may be far_away.
@@ -113,7 +119,7 @@ PURE float gaussian_integral(IN(Gaussian) g, vec3 origin, vec3 direction, float 
 }
 
 // int_0^D rho dt and int_0^D rho (1 - t/D)^2 dt, from the camera. The latter's terms cancel on the flanks: there it is good
-// to 1e-5 of the former only.
+// to 1e-4 of the former only.
 PURE vec2 profile_density_moment(IN(Profile) p, float distance)
 {
     float a = clamp(-p.scale * p.middle, -gaussian_limit, gaussian_limit);
@@ -129,12 +135,12 @@ PURE vec2 profile_density_moment(IN(Profile) p, float distance)
         float r = a + width * (R(0.5) + h);
         moment = width * (R(5.0) * (R(0.5) + h) * (R(0.5) + h) * exp(-l * l) + R(2.0) * exp(-m * m) +
                           R(5.0) * (R(0.5) - h) * (R(0.5) - h) * exp(-r * r)) / R(18.0);
-    } else {
+    } else if (area > R(1e-30)) {
         float s = b / width;
         moment = (R(0.5) / width / width + s * s) * area + R(0.5) * s / width * exp(-b * b) -
                  (s - R(0.5) * a / width) / width * exp(-a * a);
     }
-    float scale = p.peak / p.scale;
+    float scale = profile_length(p);
     return vec2(min(scale * area, density_limit), min(scale * clamp(moment, R(0.0), area), density_limit));
 }
 

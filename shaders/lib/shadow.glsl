@@ -52,11 +52,11 @@ PURE float listed_density(sampler2D gaussians, sampler2D cells, sampler2D cell_g
     float sum = R(0.0);
     for (int i = 0; i < count; ++i) {
         Gaussian g = gaussian_at(gaussians, int(data_texel(cell_gaussians, first + i).x));
-        // Most of a list is passed at a distance: 3e-5 of a Gaussian's depth is beyond.
+        // Most of a list is passed at a distance: a millionth of a Gaussian's depth is beyond.
         vec3 b = g.center - point;
         float middle = dot(b, direction);
         float beyond = max(max(middle - distance, -middle), R(0.0));
-        if (g.scale * g.scale * (dot(b, b) - middle * middle) < R(10.4) && g.scale * beyond < R(3.0))
+        if (g.scale * g.scale * (dot(b, b) - middle * middle) < R(14.0) && g.scale * beyond < R(3.5))
             sum += profile_depth(profile_along(g, point, direction), R(0.0), distance);
     }
     return min(sum, density_limit);

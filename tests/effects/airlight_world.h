@@ -1,5 +1,6 @@
 #pragma once
 // One ray of a case through the tiers, as the CPU backend runs them, and through the reference.
+#include <numbers>
 #include <vector>
 
 #include "airlight_cases.h"
@@ -65,6 +66,16 @@ public:
         const narrow::Texture blob_density = image(blob_density_, 1), sun_table = image(table, 1);
         const narrow::Sight sight{narrow::vec3(case_.direction), float(case_.distance), 0, settings.gaussian_count};
         return narrow::airlight_of_tier(tier, medium_, camera_, settings, AIRLIGHT_PASSED, sight, 0, settings.light_count);
+    }
+
+    // int rho dt of the Gaussians between a light (-1: the camera) and a point.
+    float shadow(int light, vec3 point) const
+    {
+        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4), cell_gaussians = image(indices_, 1),
+                              shadow_origins = image(origins_, 4), lights = image(lights_, 4);
+        if (light < 0)
+            return narrow::camera_density(SHADOW_PASSED, camera_, narrow::vec3(point));
+        return narrow::shadow_density(SHADOW_PASSED, camera_, light, narrow::light_at(lights, light), narrow::vec3(point));
     }
 
     brume::airlight::ReferenceAirlight reference() const
