@@ -46,25 +46,6 @@ Frame make_frame(int width, int height)
     return f;
 }
 
-struct Plan {
-    brume_scene scene = nullptr;
-    brume_plan plan = nullptr;
-    Plan(brume_context context, const std::string &text, int width, int height)
-    {
-        Context::check(brume_scene_create_from_text(context, text.data(), text.size(), "bench", &scene), context);
-        brume_format format = BRUME_FORMAT_INIT;
-        format.width = width;
-        format.height = height;
-        Context::check(brume_plan_create(scene, &format, &plan), context);
-    }
-    ~Plan()
-    {
-        brume_plan_destroy(plan);
-        brume_scene_destroy(scene);
-    }
-    Plan(const Plan &) = delete;
-};
-
 struct Measured {
     double passes_ms = 0;  // the passes alone: GPU timers on GL
     double copy_ms = 0;    // a plain copy of the frame's colour in host memory
@@ -81,7 +62,7 @@ Measured measure(brume_context context, Frame &frame, const std::string &paramet
     f.color = &c;
     f.depth = &d;
     f.output = &o;
-    Context::check(brume_plan_execute(plan.plan, &f), context);
+    Context::check(brume_plan_execute(plan, &f), context);
     std::vector<double> totals, copies;
     std::vector<std::vector<double>> passes;
     Measured m;
@@ -89,16 +70,16 @@ Measured measure(brume_context context, Frame &frame, const std::string &paramet
         auto start = Clock::now();
         std::memcpy(frame.output.data.data(), frame.color.data.data(), frame.color.data.size() * sizeof(float));
         copies.push_back(milliseconds_since(start));
-        Context::check(brume_plan_execute(plan.plan, &f), context);
+        Context::check(brume_plan_execute(plan, &f), context);
         brume_plan_info info = BRUME_PLAN_INFO_INIT;
-        brume_plan_get_info(plan.plan, &info);
+        brume_plan_get_info(plan, &info);
         double total = 0;
         m.bytes = 0;
         passes.resize(info.entry_count);
         m.per_pass.clear();
         for (uint32_t e = 0; e < info.entry_count; ++e) {
             brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
-            brume_plan_get_entry(plan.plan, e, &entry);
+            brume_plan_get_entry(plan, e, &entry);
             if (!entry.runs)
                 continue;
             total += entry.measured_ms;

@@ -88,56 +88,103 @@ inline Context *gl()
 }
 
 struct Result {
-    Picture output, transmittance, optical_depth, scattered, blur_radius;
+    Picture output, transmittance, optical_depth, scattered, blur_radius, airlight, airlight_error;
+    std::vector<Picture> light_airlight;
 };
 
 struct Options {
     std::function<void(brume_format &)> format;  // further settings
     uint32_t outputs = 0;
     double frame = 0;
+    uint32_t lights = 0;  // as many first ones give their own airlight
+    const brume_camera *camera = nullptr;
+    uint32_t origin = BRUME_ORIGIN_TOP_LEFT;
+};
+
+// A scene's plan for images of one size.
+class Plan {
+public:
+    Plan(brume_context context, const std::string &scene_text, int width, int height, const Options &options = {},
+         const std::function<void(brume_scene)> &further = {})
+        : context_(context)
+    {
+        brume_scene scene = nullptr;
+        check(brume_scene_create_from_text(context, scene_text.data(), scene_text.size(), "test.json", &scene));
+        std::unique_ptr<brume_scene_t, decltype(&brume_scene_destroy)> guard(scene, brume_scene_destroy);
+        if (further)
+            further(scene);
+        brume_format format = BRUME_FORMAT_INIT;
+        format.width = width;
+        format.height = height;
+        format.outputs = options.outputs;
+        if (options.lights)
+            format.outputs |= BRUME_OUTPUT_LIGHT_AIRLIGHT;
+        if (options.format)
+            options.format(format);
+        check(brume_plan_create(scene, &format, &plan_));
+    }
+    ~Plan() { brume_plan_destroy(plan_); }
+    Plan(const Plan &) = delete;
+    operator brume_plan() const { return plan_; }
+
+    Result execute(const Picture &color, const Picture &depth, const Options &options = {}) const
+    {
+        Result result;
+        result.output = Picture(color.width, color.height, color.channels);
+        brume_image c = image(color, options), d = image(depth, options), o = image(result.output, options);
+        brume_frame frame = BRUME_FRAME_INIT;
+        frame.color = &c;
+        frame.depth = &d;
+        frame.output = &o;
+        frame.frame = options.frame;
+        frame.camera = options.camera;
+        Picture *const pictures[] = {&result.transmittance, &result.optical_depth, &result.scattered,
+                                     &result.blur_radius,   &result.airlight,      &result.airlight_error};
+        std::vector<std::pair<brume_extra_output, Picture *>> wanted;
+        auto want = [&](uint32_t output, uint32_t light, Picture *picture) {
+            brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
+            extra.output = output;
+            extra.light = light;
+            *picture = Picture(color.width, color.height, output == BRUME_OUTPUT_BLUR_RADIUS ? 1 : 3);
+            wanted.emplace_back(extra, picture);
+        };
+        for (uint32_t k = 0; k < std::size(pictures); ++k)
+            if (options.outputs & (1u << k))
+                want(1u << k, 0, pictures[k]);
+        result.light_airlight.resize(options.lights);
+        for (uint32_t l = 0; l < options.lights; ++l)
+            want(BRUME_OUTPUT_LIGHT_AIRLIGHT, l, &result.light_airlight[l]);
+        std::vector<brume_image> images;
+        for (auto &[extra, picture] : wanted)
+            images.push_back(image(*picture, options));
+        std::vector<brume_extra_output> extras;
+        for (auto &[extra, picture] : wanted) {
+            extra.image = &images[extras.size()];
+            extras.push_back(extra);
+        }
+        frame.extra = extras.data();
+        frame.extra_count = uint32_t(extras.size());
+        check(brume_plan_execute(plan_, &frame));
+        return result;
+    }
+
+private:
+    static brume_image image(const Picture &picture, const Options &options)
+    {
+        brume_image image = describe(picture);
+        image.origin = options.origin;
+        return image;
+    }
+    void check(brume_status status) const { Context::check(status, context_); }
+
+    brume_context context_;
+    brume_plan plan_ = nullptr;
 };
 
 inline Result run(brume_context context, const std::string &scene_text, const Picture &color, const Picture &depth,
                   const Options &options = {})
 {
-    brume_scene scene = nullptr;
-    Context::check(brume_scene_create_from_text(context, scene_text.data(), scene_text.size(), "test.json", &scene),
-                   context);
-    std::unique_ptr<brume_scene_t, decltype(&brume_scene_destroy)> scene_guard(scene, brume_scene_destroy);
-    brume_format format = BRUME_FORMAT_INIT;
-    format.width = color.width;
-    format.height = color.height;
-    format.outputs = options.outputs;
-    if (options.format)
-        options.format(format);
-    brume_plan plan = nullptr;
-    Context::check(brume_plan_create(scene, &format, &plan), context);
-    std::unique_ptr<brume_plan_t, decltype(&brume_plan_destroy)> plan_guard(plan, brume_plan_destroy);
-
-    Result result;
-    result.output = Picture(color.width, color.height, color.channels);
-    brume_image c = describe(color), d = describe(depth), o = describe(result.output);
-    brume_frame frame = BRUME_FRAME_INIT;
-    frame.color = &c;
-    frame.depth = &d;
-    frame.output = &o;
-    frame.frame = options.frame;
-    std::vector<brume_extra_output> extras;
-    std::vector<brume_image> images(4);
-    Picture *pictures[] = {&result.transmittance, &result.optical_depth, &result.scattered, &result.blur_radius};
-    for (uint32_t k = 0; k < 4; ++k)
-        if (options.outputs & (1u << k)) {
-            *pictures[k] = Picture(color.width, color.height, k == 3 ? 1 : 3);
-            images[k] = describe(*pictures[k]);
-            brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
-            extra.output = 1u << k;
-            extra.image = &images[k];
-            extras.push_back(extra);
-        }
-    frame.extra = extras.data();
-    frame.extra_count = uint32_t(extras.size());
-    Context::check(brume_plan_execute(plan, &frame), context);
-    return result;
+    return Plan(context, scene_text, color.width, color.height, options).execute(color, depth, options);
 }
 
 // Scene text with a camera of 50 degrees, this medium and these parameters of multiscatter.

@@ -1,4 +1,4 @@
-// Against path-traced scenes, where they are present: kernel `paper` is held to what it reaches, so that a change shows.
+// Against path-traced scenes, where they are present: effects are held to what they reach, so that a change shows.
 #include <filesystem>
 #include <fstream>
 
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "exr.h"
+#include "lit_scene.h"
 
 using namespace fog;
 
@@ -44,26 +45,52 @@ double rel_mse(const Picture &a, const Picture &b)
     return error;
 }
 
+// Mean luminance of a over that of b.
+double energy(const Picture &a, const Picture &b)
+{
+    auto sum = [](const Picture &p) {
+        double total = 0;
+        for (int y = 0; y < p.height; ++y)
+            for (int x = 0; x < p.width; ++x)
+                total += 0.2126 * p.at(x, y)[0] + 0.7152 * p.at(x, y)[1] + 0.0722 * p.at(x, y)[2];
+        return total;
+    };
+    return sum(a) / sum(b);
+}
+
+class Truth : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        if (std::string(BRUME_SHARED_DIR).empty() || !std::filesystem::exists(folder))
+            GTEST_SKIP() << "no path-traced scenes here";
+    }
+
+    // Camera and medium of a description; no lights, no effects.
+    Json scene_of(const Json &description) const
+    {
+        Json scene{{"brume", 1},
+                   {"camera",
+                    {{"horizontal_fov", description["camera"]["horizontal_fov_degrees"]},
+                     {"camera_to_world", description["camera"]["camera_to_world"]}}},
+                   {"medium", description["medium"]}};
+        scene["medium"].erase("orders");
+        return scene;
+    }
+
+    const std::filesystem::path folder = std::filesystem::path(BRUME_SHARED_DIR) / "truth";
+};
+
 }  // namespace
 
-TEST(Truth, PaperKernelOnPathTracedScenes)
+TEST_F(Truth, PaperKernelOnPathTracedScenes)
 {
-    const std::filesystem::path folder = std::filesystem::path(BRUME_SHARED_DIR) / "truth";
-    if (std::string(BRUME_SHARED_DIR).empty() || !std::filesystem::exists(folder)) {
-        GTEST_SKIP() << "no path-traced scenes here";
-    }
     double product = 1, unfogged = 1;
     int pairs = 0;
     for (const char *name : {"lamps", "leak"})
         for (const char *medium : {"h1", "h2", "e1"}) {
             std::string file = folder / (std::string(name) + "_" + medium);
-            auto description = nlohmann::json::parse(std::ifstream(file + ".json"));
-            nlohmann::json scene;
-            scene["brume"] = 1;
-            scene["camera"] = {{"horizontal_fov", description["camera"]["horizontal_fov_degrees"]},
-                               {"camera_to_world", description["camera"]["camera_to_world"]}};
-            scene["medium"] = description["medium"];
-            scene["medium"].erase("orders");
+            Json scene = scene_of(Json::parse(std::ifstream(file + ".json")));
             std::string clear = folder / (std::string(name) + "_clear.exr");
             Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}),
                     truth = read_exr(file + ".exr", {"R", "G", "B"});
@@ -78,4 +105,35 @@ TEST(Truth, PaperKernelOnPathTracedScenes)
     printf("geometric mean: kernel paper %.3f, no fog at all %.3f\n", mean, mean_unfogged);
     EXPECT_LT(mean, 0.26) << "what a prototype of the published filter reached";
     EXPECT_LT(mean, mean_unfogged);
+}
+
+// The truth's own noise is about .003; its sources are spheres, for which the lights stand.
+TEST_F(Truth, AirlightOfScenesThatScatterOnce)
+{
+    const struct {
+        const char *name, *medium;
+        double bound;  // of relMSE
+    } cases[] = {{"dark", "h1s", 0.01}, {"lamps", "g1s", 0.01}};
+    for (auto &[name, medium, bound] : cases) {
+        const std::string file = folder / (std::string(name) + "_" + medium);
+        const Json description = Json::parse(std::ifstream(file + ".json"));
+        Json scene = scene_of(description);
+        scene["effects"]["airlight"] = Json::object();
+        for (const Json &emitter : description["emitters"])
+            scene["lights"].push_back({{"type", "point"},
+                                       {"position", emitter["position"]},
+                                       {"radius", emitter["radius"]},
+                                       {"intensity", emitter["intensity"]}});
+        const std::string clear = folder / (std::string(name) + "_clear.exr");
+        const Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}),
+                      truth = read_exr(file + ".exr", {"R", "G", "B"});
+        for (const char *where : {"cpu", "gl"}) {
+            const Picture got = run(backend(where), scene.dump(), color, depth).output;
+            const double error = rel_mse(got, truth), ratio = energy(got, truth);
+            printf("%s %s airlight on %s: relMSE %.4f, energy %.3f, without fog %.3f\n", name, medium, where, error, ratio,
+                   rel_mse(read_exr(clear, {"R", "G", "B"}), truth));
+            EXPECT_LT(error, bound) << name << " " << medium << " on " << where;
+            EXPECT_NEAR(ratio, 1, 0.03) << name << " " << medium << " on " << where;
+        }
+    }
 }

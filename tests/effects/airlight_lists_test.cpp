@@ -1,0 +1,268 @@
+// Lists of Gaussians (per tile, and per direction around each light) against sums over all Gaussians in double: nothing that
+// comes within its reach is missed, wherever the camera is, and nothing is left of an earlier frame.
+#include <gtest/gtest.h>
+
+#include "lit_scene.h"
+#include "scene_maths.hpp"
+#include "shadow_lists.h"
+
+using namespace fog;
+
+namespace {
+
+class ListsOn : public testing::TestWithParam<const char *> {
+protected:
+    brume_context context() { return backend(GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, ListsOn, testing::Values("cpu", "gl"), [](auto &info) { return std::string(info.param); });
+
+// int rho dt of each pixel between the sum over those within reach and that over all.
+void hold_optical_depth(brume_context context, const Json &scene, int width, int height, const Window &window,
+                        uint32_t origin)
+{
+    const Exhaustive exact(scene, width, height, window);
+    const Frame frame = lit_frame(width, height);
+    Options options{[&](brume_format &f) {
+                        f.display_x = window.x;
+                        f.display_y = window.y;
+                        f.display_width = window.width;
+                        f.display_height = window.height;
+                    },
+                    BRUME_OUTPUT_OPTICAL_DEPTH};
+    options.origin = origin;
+    const bool up = origin == BRUME_ORIGIN_BOTTOM_LEFT;
+    const Result r = run(context, scene.dump(), up ? flipped(frame.color) : frame.color,
+                         up ? flipped(frame.depth) : frame.depth, options);
+    const Picture got = up ? flipped(r.optical_depth) : r.optical_depth;
+    double largest = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto ray = exact.ray(x, y, frame.depth.at(x, y)[0]);
+            double all = 0, near = 0, rounding = 1e-6;
+            for (const auto &g : exact.gaussians()) {
+                const double p = Exhaustive::density(g, ray);
+                all += p;
+                near += exact.within_reach(g, ray) ? p : 0;
+                // A direction is good to 1e-7, which far off is a part of a narrow Gaussian's radius.
+                rounding += p * (1e-5 + 4e-7 * g.scale * g.scale * glm::dot(g.center, g.center));
+            }
+            ASSERT_LE(got.at(x, y)[1], all + rounding) << width << "x" << height << " at " << x << "," << y;
+            ASSERT_GE(got.at(x, y)[1], near - rounding) << width << "x" << height << " at " << x << "," << y;
+            ASSERT_NEAR(got.at(x, y)[0], 0.5 * got.at(x, y)[1], 1e-5 * all + 1e-9);
+            largest = std::max(largest, all);
+        }
+    ASSERT_GT(largest, 0);
+}
+
+}  // namespace
+
+TEST_P(ListsOn, TilesMissNoGaussian)
+{
+    const struct {
+        int width, height;
+        Window window;
+    } images[] = {{97, 61, {}},
+                  {1, 1, {}},
+                  {3, 5, {}},
+                  {16, 16, {}},
+                  {17, 33, {}},
+                  {300, 2, {}},
+                  {40, 30, {-50, 10, 160, 90}},     // a crop
+                  {70, 50, {10, 8, 50, 34}},        // overscan
+                  {20, 20, {200, -300, 160, 90}}};  // off the display window altogether
+    for (double extent : {12.0, 400.0})
+        for (uint32_t origin : {BRUME_ORIGIN_TOP_LEFT, BRUME_ORIGIN_BOTTOM_LEFT})
+            for (auto &[width, height, window] : images) {
+                Json medium{{"scattering", {0.5, 1, 1.5}}};
+                medium["density"] = random_gaussians(120, 3, extent, extent / 4, 0.5);
+                Json scene = lit_scene(medium, Json::array());
+                hold_optical_depth(context(), scene, width, height, window, origin);
+                scene["camera"]["camera_to_world"] = pose({1, 2, -extent / 3}, 2.6, -0.7);
+                scene["camera"]["vertical_fov"] = 130;
+                hold_optical_depth(context(), scene, width, height, window, origin);
+            }
+}
+
+TEST_P(ListsOn, FollowTheCameraAndTheKeys)
+{
+    // One plan through frames in which the camera, then the lights, then the Gaussians move, and a plan for each frame.
+    Json medium{{"scattering", {0.1, 0.15, 0.2}}};
+    medium["density"] = random_gaussians(60, 9, 14, 3, 2);
+    Json moving = gaussian({0, 0, -6}, 0.7, 1);
+    moving["center"] = {{{"keys", {{4, -3}, {6, 4}}}}, 0, -6};
+    moving["amplitude"] = {{"keys", {{4, 2}, {6, 0}}}};
+    medium["density"].push_back(moving);
+    Json lamp = point_light({0, 1, -7}, 5);
+    lamp["position"] = {{{"keys", {{2, -4}, {4, 3}}}}, 1, -7};
+    const Json sun{{"type", "directional"}, {"direction", {0.4, -1, 0.2}}, {"intensity", 0.5}};
+    Json spot{{"type", "spot"}, {"position", {3, 2, -9}}, {"direction", {-1, -0.6, 0.2}}, {"angle", 50}, {"intensity", 30}};
+    spot["direction"] = {-1, {{"keys", {{3, -0.6}, {5, 0.6}}}}, 0.2};
+    const Json scene = lit_scene(medium, Json::array({lamp, sun, spot}));
+    const Frame frame = lit_frame(40, 30);
+    const Plan plan(context(), scene.dump(), 40, 30);
+    const Json poses[] = {pose({0, 0, 0}), pose({0, 0, 0}, 0.3, 0.1), pose({2, -1, -3}, 0.3, 0.1), pose({0, 0, 0}),
+                          pose({0, 0, 0}, -2)};
+    std::vector<float> before;
+    for (double number : {0.0, 0.0, 3.0, 4.0, 5.0, 6.0, 0.0, 9.0})
+        for (const Json &p : poses) {
+            const brume_camera c = camera(p, 50);
+            const Options options{{}, 0, number, 0, &c};
+            const Picture got = plan.execute(frame.color, frame.depth, options).output,
+                          expected = run(context(), scene.dump(), frame.color, frame.depth, options).output;
+            const Worst worst = compare(got, expected, 1e-3);
+            EXPECT_LT(worst.error, 1e-5) << "frame " << number << " " << worst.describe();
+            EXPECT_NE(got.data, before) << "frame " << number << ": nothing moved";
+            before = got.data;
+        }
+}
+
+TEST_P(ListsOn, CropsAndOverscanAreTheSamePicture)
+{
+    const int width = 96, height = 64;
+    for (const auto &[name, scene, tiers] : lit_scenes()) {
+        const Frame frame = lit_frame(width, height);
+        const Picture whole = run(context(), scene.dump(), frame.color, frame.depth).output;
+        const int x0 = 21, y0 = 13, w = 50, h = 37;
+        Frame part{Picture(w, h, 4), Picture(w, h, 1)};
+        Picture expected(w, h, 4);
+        for (int y = 0; y < h; ++y) {
+            std::copy_n(frame.color.at(x0, y0 + y), 4 * w, part.color.at(0, y));
+            std::copy_n(frame.depth.at(x0, y0 + y), w, part.depth.at(0, y));
+            std::copy_n(whole.at(x0, y0 + y), 4 * w, expected.at(0, y));
+        }
+        const Options crop{[&](brume_format &f) {
+            f.display_x = -x0;
+            f.display_y = -y0;
+            f.display_width = width;
+            f.display_height = height;
+        }};
+        const Worst worst = compare(run(context(), scene.dump(), part.color, part.depth, crop).output, expected, 1e-2);
+        EXPECT_LT(worst.error, 2e-4) << name << " " << worst.describe();
+    }
+}
+
+namespace {
+
+// A scene as effects see it, of Gaussians and lights around a camera that may move among them.
+class World {
+public:
+    World(unsigned seed, int gaussians, double extent) : random_(seed)
+    {
+        for (int i = 0; i < gaussians; ++i) {
+            centers_.push_back(somewhere(extent));
+            brume_plugin_gaussian g{};
+            g.scale = float(std::pow(10, 1.5 * u()) / extent);
+            g.amplitude = float(0.1 * u());
+            gaussians_.push_back(g);
+        }
+        for (int i = 0; i < 5; ++i) {
+            brume_plugin_light l{};
+            l.type = float(i < 3 ? BRUME_LIGHT_POINT : i == 3 ? BRUME_LIGHT_SPOT : BRUME_LIGHT_DIRECTIONAL);
+            light_positions_.push_back(somewhere(i == 2 ? 20 * extent : extent));
+            light_directions_.push_back(glm::normalize(somewhere(1)));
+            lights_.push_back(l);
+        }
+        scene_.medium.scattering[0] = scene_.medium.scattering[1] = scene_.medium.scattering[2] = 1;
+        move({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    }
+    World(const World &) = delete;
+
+    glm::dvec3 somewhere(double extent) { return extent * glm::dvec3(2 * u() - 1, 2 * u() - 1, 2 * u() - 1); }
+    double u() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+    void move(glm::dvec3 position, glm::dvec3 right, glm::dvec3 up)
+    {
+        const glm::dvec3 axes[3] = {glm::normalize(right), glm::normalize(glm::cross(glm::cross(right, up), right)),
+                                    glm::normalize(glm::cross(right, up))};
+        float(*const to[3])[3] = {&scene_.camera.right, &scene_.camera.up, &scene_.camera.back};
+        for (int a = 0; a < 3; ++a)
+            for (int i = 0; i < 3; ++i)
+                (*to[a])[i] = float(axes[a][i]);
+        auto seen = [&](glm::dvec3 p, float(&out)[3]) {
+            for (int a = 0; a < 3; ++a)
+                out[a] = float(glm::dot(p, axes[a]));
+        };
+        for (size_t i = 0; i < gaussians_.size(); ++i)
+            seen(centers_[i] - position, gaussians_[i].center);
+        for (size_t i = 0; i < lights_.size(); ++i) {
+            if (lights_[i].type != BRUME_LIGHT_DIRECTIONAL)
+                seen(light_positions_[i] - position, lights_[i].position);
+            if (lights_[i].type != BRUME_LIGHT_POINT)
+                seen(light_directions_[i], lights_[i].direction);
+        }
+        scene_.gaussians = gaussians_.data();
+        scene_.gaussian_count = uint32_t(gaussians_.size());
+        scene_.lights = lights_.data();
+        scene_.light_count = uint32_t(lights_.size());
+        for (size_t i = 0; i < 3; ++i)
+            scene_.position[i] = position[int(i)];
+    }
+
+    const brume_plugin_scene &scene() const { return scene_; }
+
+private:
+    std::mt19937 random_;
+    std::vector<glm::dvec3> centers_, light_positions_, light_directions_;
+    std::vector<brume_plugin_gaussian> gaussians_;
+    std::vector<brume_plugin_light> lights_;
+    brume_plugin_scene scene_{};
+};
+
+}  // namespace
+
+// What lies between a point and a light, or the camera, as shaders look it up.
+TEST(ShadowLists, MissNoGaussian)
+{
+    using namespace brume::maths_double;
+    size_t listed_pairs = 0, pairs = 0;
+    for (int count : {0, 1, 2, 40, 900, 6000})
+        for (double extent : {1.0, 3000.0}) {
+            World world(unsigned(count) + 1, count, extent);
+            airlight::ShadowLists lists;
+            for (int step = 0; step < 3; ++step) {
+                if (step)
+                    world.move(world.somewhere(extent), world.somewhere(1), world.somewhere(1));
+                const brume_plugin_scene &scene = world.scene();
+                ASSERT_TRUE(lists.refresh(scene, step == 0, true));
+                const Medium medium = medium_of(scene);
+                const Camera camera = camera_of(scene);
+                const Data gaussians = gaussians_of(scene), lights = lights_of(scene),
+                           cells(lists.cells.data(), lists.cells.size() / 4, 4),
+                           entries(lists.cell_gaussians.data(), lists.cell_gaussians.size(), 1),
+                           origins(lists.origins.data(), lists.origins.size() / 4, 4);
+                const Texture g = gaussians.texture(), c = cells.texture(), e = entries.texture(), o = origins.texture();
+                const int points = count > 1000 ? 40 : 200;
+                for (int i = 0; i < points; ++i) {
+                    vec3 point = world.somewhere(i % 5 == 4 ? 30 * extent : extent);
+                    for (int l = -1; l < int(scene.light_count); ++l) {
+                        const Light light = l < 0 ? Light{} : light_at(lights.texture(), l);
+                        if (i == 0)
+                            point = light.position;
+                        const double listed = l < 0 ? camera_density(g, c, e, o, camera, point)
+                                                    : shadow_density(g, c, e, o, camera, l, light, point);
+                        const bool parallel = light.type == light_directional;
+                        const vec3 away = light.position - point;
+                        const double distance = parallel ? far_away : glm::length(away);
+                        const vec3 way = parallel ? -light.direction : away / std::max(distance, 1e-20);
+                        double all = 0, near = 0, whole = 0;
+                        for (uint32_t k = 0; k < scene.gaussian_count; ++k) {
+                            const Gaussian blob = gaussian_at(g, int(k));
+                            const vec3 b = blob.center - point;
+                            const double p = Exhaustive::density({b, blob.scale, blob.amplitude, vec3(1)}, {way, distance});
+                            const double t = std::clamp(glm::dot(b, way), 0.0, distance);
+                            all += p;
+                            near += glm::length(b - t * way) <= gaussian_reach(medium, blob) ? p : 0;
+                            whole += 2 * blob.amplitude / blob.scale;
+                        }
+                        ASSERT_LE(listed, all * (1 + 1e-6) + 1e-7 * whole) << count << " Gaussians, light " << l;
+                        ASSERT_GE(listed, near * (1 - 1e-6) - 1e-7 * whole) << count << " Gaussians, light " << l;
+                    }
+                }
+                if (step == 0)
+                    listed_pairs += lists.cell_gaussians.size();
+                pairs += step ? 0 : scene.gaussian_count * (lists.cells.size() / 4);
+            }
+        }
+    EXPECT_LT(listed_pairs, pairs / 2) << "nothing was culled";
+}
