@@ -29,8 +29,9 @@ std::vector<Cone> cones_of(int grid)
             cone.axis = octahedral_direction((vec2(x, y) + 0.5) / double(grid));
             cone.cosine = 1;
             for (int corner = 0; corner < 4; ++corner)
-                cone.cosine = std::min(cone.cosine, dot(cone.axis, octahedral_direction(vec2(x + (corner & 1), y + (corner >> 1)) /
-                                                                                       double(grid))));
+                cone.cosine =
+                    std::min(cone.cosine,
+                             dot(cone.axis, octahedral_direction(vec2(x + (corner & 1), y + (corner >> 1)) / double(grid))));
             cone.cosine -= 1e-6;  // the shader's rounding may put a direction into the cell beside
             cone.sine = std::sqrt(std::max(0.0, 1 - cone.cosine * cone.cosine));
         }
@@ -63,7 +64,7 @@ std::array<double, 3> in_world_axes(const brume_plugin_camera &camera, const flo
 
 vec3 in_camera_axes(const brume_plugin_camera &camera, vec3 w)
 {
-    auto along = [&](const float (&axis)[3]) { return w.x * axis[0] + w.y * axis[1] + w.z * axis[2]; };
+    auto along = [&](const float(&axis)[3]) { return w.x * axis[0] + w.y * axis[1] + w.z * axis[2]; };
     return {along(camera.right), along(camera.up), along(camera.back)};
 }
 
@@ -71,11 +72,22 @@ vec3 in_camera_axes(const brume_plugin_camera &camera, vec3 w)
 
 bool ShadowLists::refresh(const brume_plugin_scene &scene, bool moved, bool with_camera)
 {
-    const Medium medium = medium_of(scene);
-    // About four cells per Gaussian, fewer where there are many lights.
+    if (!moved && build(scene, false, with_camera))
+        return true;
+    // About four cells per Gaussian, fewer where there are many lights. Where Gaussians cover so much that their lists do not
+    // fit, fewer cells are as good.
     const double most_cells = double(most_entries) / 16 / (1.0 + scene.light_count);
     const double cells_wanted = std::min(4.0 * scene.gaussian_count, most_cells);
     grid_ = std::clamp(int(std::bit_floor(uint32_t(std::sqrt(cells_wanted)))), 1, 1 << most_levels);
+    for (; grid_ > 0; grid_ /= 2)
+        if (build(scene, true, with_camera))
+            return true;
+    return false;
+}
+
+bool ShadowLists::build(const brume_plugin_scene &scene, bool moved, bool with_camera)
+{
+    const Medium medium = medium_of(scene);
     const uint32_t per_origin = uint32_t(grid_) * uint32_t(grid_);
     spheres_.resize(scene.gaussian_count);
     for (uint32_t i = 0; i < scene.gaussian_count; ++i) {

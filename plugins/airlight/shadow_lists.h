@@ -33,9 +33,10 @@ private:
         double reach;
     };
 
+    // refresh() with a grid of grid_.
+    bool build(const brume_plugin_scene &scene, bool moved, bool with_camera);
     void add_around(const std::array<double, 3> &origin, uint32_t first_cell);
-    void add_across(const brume_plugin_scene &scene, uint32_t light, uint32_t first_cell, float *texels,
-                    bool moved);
+    void add_across(const brume_plugin_scene &scene, uint32_t light, uint32_t first_cell, float *texels, bool moved);
     bool sort_entries(uint32_t first_cell, uint32_t cell_count);
 
     int grid_ = 1;  // cells a side, a power of two

@@ -153,16 +153,25 @@ public:
         const Json &medium = scene["medium"];
         medium_.scattering = rgb(medium.value("scattering", Json(0)));
         medium_.absorption = rgb(medium.value("absorption", Json(0)));
-        medium_.phase.x = medium_.asymmetry = medium.value("g", 0.0);
+        medium_.phase.x = medium.value("g", 0.0);
+        if (medium.contains("droplet_diameter")) {  // Jendersie and d'Eon 2023
+            const double d = medium["droplet_diameter"];
+            medium_.phase = {std::exp(-0.0990567 / (d - 1.67154)), std::exp(-2.20679 / (d + 3.91029) - 0.428934),
+                             std::exp(3.62489 - 8.29288 / (d + 5.52825)), std::exp(-0.599085 / (d - 0.641583) - 0.665888)};
+        }
         medium_.constant = medium.contains("density") ? 0 : 1;
         for (const Json &term : medium.value("density", Json::array()))
-            if (term["type"] == "constant")
+            if (term["type"] == "constant") {
                 medium_.constant += term.value("value", 1.0);
-            else if (term["type"] == "gaussian")
+            } else if (term["type"] == "gaussian") {
                 gaussians_.push_back(
                     {seen(term["center"]), term["scale"], term["amplitude"], rgb(term.value("colour", Json(1)))});
-            else
-                throw std::runtime_error("a density term that is not known here");
+            } else {
+                const vec3 n = glm::normalize(turned(rgb(term["direction"]))) * term["falloff"].get<double>();
+                const vec3 origin = seen(term.value("origin", Json{0, 0, 0}));
+                medium_.terms[medium_.term_count++] = {n.x, n.y, n.z,
+                                                       std::log(term.value("value", 1.0)) + glm::dot(n, origin)};
+            }
         for (const Json &light : scene.value("lights", Json::array()))
             lights_.push_back(light_of(light));
         // The library holds scenes in float.

@@ -1,0 +1,210 @@
+// The effect airlight against what physics says without it: exhaustive quadrature in double, the homogeneous limit, energy.
+#include <gtest/gtest.h>
+
+#include "lit_scene.h"
+
+using namespace fog;
+
+namespace {
+
+class AirlightPhysics : public testing::TestWithParam<const char *> {
+protected:
+    brume_context context() { return backend(GetParam()); }
+
+    Result lit(const Json &scene, const Picture &depth)
+    {
+        const Picture black(depth.width, depth.height, 4);
+        return run(context(), scene.dump(), black, depth, Options{{}, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_AIRLIGHT});
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, AirlightPhysics, testing::Values("cpu", "gl"),
+                         [](auto &info) { return std::string(info.param); });
+
+Json with_airlight(Json scene, const char *parameter, const Json &value)
+{
+    scene["effects"]["airlight"][parameter] = value;
+    return scene;
+}
+
+// Of some of a frame's pixels, and what exhaustive quadrature says there.
+struct Sampled {
+    struct Pixel {
+        int x, y;
+        Exhaustive::vec3 exact;
+    };
+    std::vector<Pixel> pixels;
+    double brightest = 0;
+
+    Sampled(const Json &scene, const Frame &frame, int count)
+    {
+        const Exhaustive exhaustive(scene, frame.depth.width, frame.depth.height);
+        std::mt19937 random(8);
+        for (int i = 0; i < count; ++i) {
+            const int x = int(random() % unsigned(frame.depth.width)), y = int(random() % unsigned(frame.depth.height));
+            pixels.push_back({x, y, exhaustive.airlight(exhaustive.ray(x, y, frame.depth.at(x, y)[0]))});
+            for (int c = 0; c < 3; ++c)
+                brightest = std::max(brightest, pixels.back().exact[c]);
+        }
+    }
+
+    // |got - exact| over what is exact, or a hundredth of the brightest pixel; sorted.
+    std::vector<double> errors(const Picture &got) const
+    {
+        std::vector<double> all;
+        for (const Pixel &p : pixels)
+            for (int c = 0; c < 3; ++c)
+                all.push_back(std::abs(got.at(p.x, p.y)[c] - p.exact[c]) / std::max(p.exact[c], 0.01 * brightest));
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+};
+
+}  // namespace
+
+TEST_P(AirlightPhysics, AgreesWithExhaustiveQuadrature)
+{
+    const Frame frame = lit_frame(48, 32);
+    for (const auto &[name, scene, tiers] : lit_scenes()) {
+        if (scene.contains("environment"))
+            continue;
+        const Sampled sampled(scene, frame, 80);
+        for (double max_error : {0.01, 0.0005}) {
+            const auto errors = sampled.errors(lit(with_airlight(scene, "max_error", max_error), frame.depth).airlight);
+            const double median = errors[errors.size() / 2], p95 = errors[errors.size() * 95 / 100], worst = errors.back();
+            printf("%s, nodes, max_error %g: median %.2g, p95 %.2g, worst %.2g\n", name, max_error, median, p95, worst);
+            EXPECT_LT(median, 0.5 * max_error) << name;
+            EXPECT_LT(p95, 2 * max_error) << name;
+        }
+    }
+}
+
+TEST(AirlightReference, IsTheExhaustiveQuadrature)
+{
+    const Frame frame = lit_frame(5, 4);
+    for (const auto &[name, scene, tiers] : lit_scenes()) {
+        if (scene.contains("environment"))
+            continue;
+        const Result r = run(cpu(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth,
+                             Options{{}, BRUME_OUTPUT_AIRLIGHT});
+        EXPECT_LT(Sampled(scene, frame, 20).errors(r.airlight).back(), 1e-4) << name;
+        if (gl())
+            EXPECT_THROW(run(*gl(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth), Failure);
+    }
+}
+
+// |estimate| >= |error| nearly everywhere, and no uselessly large one.
+TEST(AirlightErrorEstimate, BoundsTheError)
+{
+    const Frame frame = lit_frame(48, 32);
+    int bounded = 0, all = 0;
+    std::vector<double> excess;
+    for (const auto &[name, scene, tiers] : lit_scenes()) {
+        if (scene.contains("environment"))
+            continue;
+        const Result r = run(cpu(), scene.dump(), frame.color, frame.depth,
+                             Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
+        const Sampled sampled(scene, frame, 120);
+        for (const auto &p : sampled.pixels)
+            for (int c = 0; c < 3; ++c) {
+                const double error = std::abs(r.airlight.at(p.x, p.y)[c] - p.exact[c]),
+                             estimate = r.airlight_error.at(p.x, p.y)[c], rounding = 2e-6 * p.exact[c];
+                ++all;
+                bounded += error <= estimate + rounding;
+                if (error > rounding)
+                    excess.push_back(estimate / error);
+            }
+    }
+    std::sort(excess.begin(), excess.end());
+    const double share = double(bounded) / all, median = excess[excess.size() / 2];
+    printf("the error estimate bounds the error in %.1f %% of pixels; the median of their ratio is %.2g\n", 100 * share,
+           median);
+    EXPECT_GE(share, 0.95);
+    EXPECT_LE(median, 10);
+}
+
+// A lattice of Gaussians a spacing apart, wider and wider: what its Fourier series leaves of the ripple falls as
+// e^(-pi^2 / (a s)^2).
+TEST_P(AirlightPhysics, ManyWideGaussiansApproachTheConstantMedium)
+{
+    const double spacing = 2.5, density = 0.08;
+    const Json lights{point_light({-1, 0.7, -5}, 4, 0.1), point_light({1.5, 0, -3}, 2)};
+    const Picture depth(9, 5, 1, 7);
+    const Result constant_one =
+        lit(lit_scene({{"scattering", {0.7, 1, 1.3}}, {"density", {constant(density)}}}, lights), depth);
+    double before = 1;
+    for (double as : {1.7, 1.3, 1.0}) {
+        Json medium{{"scattering", {0.7, 1, 1.3}}, {"density", Json::array()}};
+        const double a = as / spacing, reach = 4 / a, amplitude = density * std::pow(as / std::sqrt(3.14159265358979), 3);
+        const int across = int(std::ceil((4 + reach) / spacing)), ahead = int(std::ceil((8 + reach) / spacing)),
+                  behind = int(std::ceil(reach / spacing));
+        for (int x = -across; x <= across; ++x)
+            for (int y = -across; y <= across; ++y)
+                for (int z = -ahead; z <= behind; ++z)
+                    medium["density"].push_back(gaussian({x * spacing, y * spacing, z * spacing}, a, amplitude));
+        const Result lattice = lit(lit_scene(medium, lights), depth);
+        const Worst airlight = compare(lattice.airlight, constant_one.airlight, 1e-4),
+                    t = compare(lattice.transmittance, constant_one.transmittance, 1e-2);
+        printf("%zu Gaussians, a s = %.1f: airlight %.2g, transmittance %.2g from the constant medium's\n",
+               medium["density"].size(), as, airlight.error, t.error);
+        EXPECT_LT(airlight.error, before) << as;
+        before = airlight.error;
+        if (as == 1.0) {
+            EXPECT_LT(airlight.error, 0.01) << airlight.describe();
+            EXPECT_LT(t.error, 1e-3) << t.describe();
+        }
+    }
+}
+
+// What a light within a ball of fog sends to the camera after one scattering, over all directions of view, is the volume
+// integral in spherical coordinates about the light.
+TEST_P(AirlightPhysics, EnergyOfALightWithinABallOfFogAddsUp)
+{
+    const int size = 48;
+    const double away = 15, intensity = 10;
+    for (double peak : {0.0005, 0.8})
+        for (double offset : {0.0, 0.5}) {
+            Json scene =
+                lit_scene({{"scattering", peak}, {"g", peak < 0.1 ? 0 : 0.3}, {"density", {gaussian({0, 0, -away}, 1, 1)}}},
+                          Json::array({point_light({offset, 0.3 * offset, -away}, intensity)}));
+            scene["camera"]["vertical_fov"] = 30;
+            const Exhaustive rays(scene, size, size);
+            const Result r = lit(scene, Picture(size, size, 1, INFINITY));
+            double seen = 0;
+            const double pixel = 2 * std::tan(15 * 3.14159265358979 / 180) / size;
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x) {
+                    const double cosine = -rays.ray(x, y, 1).direction.z;
+                    seen += r.airlight.at(x, y)[0] * pixel * pixel * cosine * cosine * cosine;
+                }
+
+            const glm::dvec3 light(offset, 0.3 * offset, -away), center(0, 0, -away);
+            auto density = [&](glm::dvec3 from, glm::dvec3 to) {
+                const double length = glm::length(to - from);
+                return Exhaustive::density({center - from, 1, 1, glm::dvec3(1)}, {(to - from) / length, length});
+            };
+            const int radii = 80, heights = 60, turns = 60;
+            const double reach = 6;
+            double volume = 0;
+            for (int i = 0; i < radii; ++i)
+                for (int j = 0; j < heights; ++j)
+                    for (int k = 0; k < turns; ++k) {
+                        const double d = reach * (i + 0.5) / radii, z = 2 * (j + 0.5) / heights - 1,
+                                     phi = 2 * 3.14159265358979 * (k + 0.5) / turns, s = std::sqrt(1 - z * z);
+                        const glm::dvec3 way(s * std::cos(phi), s * std::sin(phi), z), x = light + d * way;
+                        const double rho = std::exp(-glm::dot(x - center, x - center)),
+                                     mu = glm::dot(way, -x) / glm::length(x), g = peak < 0.1 ? 0 : 0.3;
+                        const double phase = (1 - g * g) / (4 * 3.14159265358979 * std::pow(1 + g * g - 2 * g * mu, 1.5));
+                        volume += peak * rho * phase * std::exp(-peak * (density(light, x) + density(x, {0, 0, 0}))) /
+                                  glm::dot(x, x);
+                    }
+            volume *= intensity * 4 * 3.14159265358979 * reach / (double(radii) * heights * turns);
+            printf("peak %g, light %.1f off the centre: seen / sent %.4f\n", peak, offset, seen / volume);
+            EXPECT_NEAR(seen / volume, 1, 0.01) << "peak " << peak << ", offset " << offset;
+            if (peak < 0.1 && offset == 0) {
+                // Thin: I tau, seen from afar.
+                const double sent = intensity * peak * 0.886226925 / (away * away);
+                EXPECT_NEAR(seen / sent, 1, 0.01);
+            }
+        }
+}
