@@ -83,7 +83,9 @@ PURE Profile profile_along(IN(Gaussian) g, vec3 origin, vec3 direction)
 {
     vec3 b = g.center - origin;
     float x = min(g.scale * length(cross(direction, b)), gaussian_limit);
-    return Profile(g.amplitude * exp(-x * x), g.scale, dot(b, direction));
+    // So that an integral over it stays below density_limit, and is not infinity times nothing.
+    float most = min(g.amplitude, density_limit * min(g.scale, R(1.0)));
+    return Profile(most * exp(-x * x), g.scale, dot(b, direction));
 }
 
 PURE float profile_density(IN(Profile) p, float t)

@@ -88,7 +88,7 @@ TEST_P(ListsOn, FollowTheCameraAndTheKeys)
 {
     // One plan through frames in which the camera, then the lights, then the Gaussians move, and a plan for each frame.
     Json medium{{"scattering", {0.1, 0.15, 0.2}}};
-    medium["density"] = random_gaussians(60, 9, 14, 3, 2);
+    medium["density"] = random_gaussians(30, 9, 14, 3, 2);
     Json moving = gaussian({0, 0, -6}, 0.7, 1);
     moving["center"] = {{{"keys", {{4, -3}, {6, 4}}}}, 0, -6};
     moving["amplitude"] = {{"keys", {{4, 2}, {6, 0}}}};
@@ -99,8 +99,8 @@ TEST_P(ListsOn, FollowTheCameraAndTheKeys)
     Json spot{{"type", "spot"}, {"position", {3, 2, -9}}, {"direction", {-1, -0.6, 0.2}}, {"angle", 50}, {"intensity", 30}};
     spot["direction"] = {-1, {{"keys", {{3, -0.6}, {5, 0.6}}}}, 0.2};
     const Json scene = lit_scene(medium, Json::array({lamp, sun, spot}));
-    const Frame frame = lit_frame(40, 30);
-    const Plan plan(context(), scene.dump(), 40, 30);
+    const Frame frame = lit_frame(20, 15);
+    const Plan plan(context(), scene.dump(), 20, 15);
     const Json poses[] = {pose({0, 0, 0}), pose({0, 0, 0}, 0.3, 0.1), pose({2, -1, -3}, 0.3, 0.1), pose({0, 0, 0}),
                           pose({0, 0, 0}, -2)};
     std::vector<float> before;

@@ -81,8 +81,7 @@ TEST_P(AirlightOn, LightsAddUp)
     const Frame frame = lit_frame(40, 30);
     for (const auto &[name, scene, tiers] : lit_scenes())
         for (const char *tier : tiers) {
-            const uint32_t lights = uint32_t(scene["lights"].size());
-            const Result r = fogged(in_tier(scene, tier), frame, BRUME_OUTPUT_AIRLIGHT, lights);
+            const Result r = fogged(in_tier(scene, tier), frame, BRUME_OUTPUT_AIRLIGHT, uint32_t(scene["lights"].size()));
             Picture total(40, 30, 3);
             for (const Picture &light : r.light_airlight) {
                 EXPECT_GT(largest(light), 1e-4) << name << " " << tier;
@@ -90,16 +89,17 @@ TEST_P(AirlightOn, LightsAddUp)
                     total.data[i] += light.data[i];
             }
             // The environment's part has no output of its own.
+            Picture expected = r.airlight;
             if (scene.contains("environment")) {
                 Json lamps = scene;
                 lamps.erase("environment");
-                EXPECT_GT(sum(r.airlight), sum(total)) << name << " " << tier;
-                const Worst worst = compare(total, fogged(in_tier(lamps, tier), frame).airlight, 1e-3);
-                EXPECT_LT(worst.error, 1e-5) << name << " " << tier << " " << worst.describe();
-                continue;
+                expected = fogged(in_tier(lamps, tier), frame).airlight;
+                EXPECT_GT(sum(r.airlight), 1.01 * sum(expected)) << name << " " << tier;
             }
-            const Worst worst = compare(total, r.airlight, 1e-3);
-            EXPECT_LT(worst.error, 1e-5) << name << " " << tier << " " << worst.describe();
+            // Nodes are chosen for the error asked of the whole (max_error, .01), so that a light alone may get others.
+            const Worst worst = compare(total, expected, 1e-3);
+            EXPECT_LT(worst.error, std::string(tier) == "nodes" ? 1e-2 : 1e-5)
+                << name << " " << tier << " " << worst.describe();
         }
 }
 
@@ -232,10 +232,10 @@ TEST_P(AirlightOn, MoreMediumNeverBrightensWhatIsBehind)
 
 TEST_P(AirlightOn, SameBitsInPlaceAndAgain)
 {
-    Frame frame = lit_frame(37, 21);
+    Frame frame = lit_frame(21, 13);
     const auto scenes = lit_scenes();
     for (const auto &[name, scene, tiers] : scenes) {
-        const Plan plan(context(), scene.dump(), 37, 21);
+        const Plan plan(context(), scene.dump(), 21, 13);
         const Picture expected = plan.execute(frame.color, frame.depth).output;
         EXPECT_EQ(plan.execute(frame.color, frame.depth).output.data, expected.data) << name;
         EXPECT_EQ(run(context(), scene.dump(), frame.color, frame.depth).output.data, expected.data) << name;
@@ -251,7 +251,7 @@ TEST_P(AirlightOn, SameBitsInPlaceAndAgain)
 
 TEST_P(AirlightOn, BottomLeftOriginIsTheFlippedPicture)
 {
-    const Frame frame = lit_frame(37, 21);
+    const Frame frame = lit_frame(21, 13);
     for (const auto &[name, scene, tiers] : lit_scenes()) {
         const Options upside_down{{}, shown, 0, 0, nullptr, BRUME_ORIGIN_BOTTOM_LEFT};
         const Result expected = fogged(scene, frame),
