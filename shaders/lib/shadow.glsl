@@ -56,7 +56,8 @@ PURE float listed_density(sampler2D gaussians, sampler2D cells, sampler2D cell_g
         vec3 b = g.center - point;
         float middle = dot(b, direction);
         float beyond = max(max(middle - distance, -middle), R(0.0));
-        if (g.scale * g.scale * (dot(b, b) - middle * middle) < R(14.0) && g.scale * beyond < R(3.5))
+        vec3 aside = cross(direction, b);
+        if (g.scale * g.scale * dot(aside, aside) < R(14.0) && g.scale * beyond < R(3.5))
             sum += profile_depth(profile_along(g, point, direction), R(0.0), distance);
     }
     return min(sum, density_limit);

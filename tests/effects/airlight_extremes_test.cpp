@@ -203,7 +203,11 @@ TEST_P(AirlightExtremes, MediaLightsAndGaussians)
 TEST_P(AirlightExtremes, CamerasFarFromTheOrigin)
 {
     const Frame frame = lit_frame(20, 16);
-    for (const auto &[name, scene, tiers] : lit_scenes()) {
+    std::vector<NamedScene> scenes = lit_scenes();
+    if (std::string(GetParam()) == "gl")
+        scenes = {scenes[1]};
+    const Options options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR};
+    for (const auto &[name, scene, tiers] : scenes) {
         Json far = scene;
         const Vector shift{1e6, -1e6, 1e6};
         auto move = [&](Json &point) {
@@ -220,8 +224,8 @@ TEST_P(AirlightExtremes, CamerasFarFromTheOrigin)
                     move(term["center"]);
                 else if (term["type"] == "exponential")
                     term["origin"] = shift;
-        const Picture near_one = run(context(), scene.dump(), frame.color, frame.depth).output,
-                      far_one = run(context(), far.dump(), frame.color, frame.depth).output;
+        const Picture near_one = run(context(), scene.dump(), frame.color, frame.depth, options).output,
+                      far_one = run(context(), far.dump(), frame.color, frame.depth, options).output;
         const Worst worst = compare(far_one, near_one, 1e-2);
         EXPECT_LT(worst.error, 1e-5) << name << " " << worst.describe();
     }
@@ -232,7 +236,8 @@ TEST_P(AirlightExtremes, Sizes)
     const Json scene = lit_scenes()[1].scene;
     for (auto [w, h] : {std::pair(1, 1), {3, 5}, {1, 4096}, {4096, 1}}) {
         const Frame frame = lit_frame(w, h);
-        const Result r = run(context(), scene.dump(), frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT});
+        const Result r = run(context(), scene.dump(), frame.color, frame.depth,
+                             Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
         for (float v : r.output.data)
             ASSERT_TRUE(std::isfinite(v) && v >= 0) << w << "x" << h;
         for (float v : r.airlight.data)
@@ -245,7 +250,7 @@ TEST_P(AirlightExtremes, HalvesSaturate)
     Json scene = ordinary();
     scene["lights"][0]["intensity"] = 1e9;
     const Frame frame = lit_frame(16, 12);
-    const Plan plan(context(), scene.dump(), 16, 12, Options{{}, BRUME_OUTPUT_AIRLIGHT});
+    const Plan plan(context(), scene.dump(), 16, 12, Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
     std::vector<uint16_t> out(16 * 12 * 4), airlight(16 * 12 * 4);
     brume_image c = describe(frame.color), d = describe(frame.depth), o = describe(frame.color), a = o;
     o.pixel = a.pixel = BRUME_PIXEL_F16;
@@ -269,7 +274,7 @@ TEST_P(AirlightExtremes, HalvesSaturate)
 // As many as the documentation promises, through the C ABI.
 TEST_P(AirlightExtremes, ManyGaussians)
 {
-    const Frame frame = lit_frame(24, 16);
+    const Frame frame = lit_frame(12, 8);
     for (uint32_t count : {0u, 1u, 1000u, 100000u}) {
         std::mt19937 random(count);
         std::uniform_real_distribution<double> u(-1, 1);
@@ -281,18 +286,20 @@ TEST_P(AirlightExtremes, ManyGaussians)
             g.scale = 0.05 * std::cbrt(double(count)) * std::exp(u(random));
             g.amplitude = 1;
         }
-        const Plan plan(context(), ordinary().dump(), 24, 16, Options{{}, BRUME_OUTPUT_AIRLIGHT}, [&](brume_scene scene) {
-            brume_density_term term = BRUME_DENSITY_TERM_INIT;
-            term.value = 0.1;
-            brume_medium medium = BRUME_MEDIUM_INIT;
-            std::fill_n(medium.scattering, 3, 0.05);
-            medium.terms = &term;
-            medium.term_count = 1;
-            medium.gaussians = gaussians.data();
-            medium.gaussian_count = count;
-            Context::check(brume_scene_set_medium(scene, &medium), context());
-        });
-        const Result r = plan.execute(frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT});
+        const Plan plan(context(), ordinary().dump(), 12, 8,
+                        Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR}, [&](brume_scene scene) {
+                            brume_density_term term = BRUME_DENSITY_TERM_INIT;
+                            term.value = 0.1;
+                            brume_medium medium = BRUME_MEDIUM_INIT;
+                            std::fill_n(medium.scattering, 3, 0.05);
+                            medium.terms = &term;
+                            medium.term_count = 1;
+                            medium.gaussians = gaussians.data();
+                            medium.gaussian_count = count;
+                            Context::check(brume_scene_set_medium(scene, &medium), context());
+                        });
+        const Result r =
+            plan.execute(frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
         for (float v : r.airlight.data)
             ASSERT_TRUE(std::isfinite(v) && v > 0) << count;
         for (float v : r.output.data)

@@ -64,11 +64,11 @@ struct Sampled {
 
 TEST_P(AirlightPhysics, AgreesWithExhaustiveQuadrature)
 {
-    const Frame frame = lit_frame(48, 32);
+    const Frame frame = lit_frame(36, 24);
     for (const auto &[name, scene, tiers] : lit_scenes()) {
         if (scene.contains("environment"))
             continue;
-        const Sampled sampled(scene, frame, 80);
+        const Sampled sampled(scene, frame, 60);
         for (double max_error : {0.01, 0.0005}) {
             const auto errors = sampled.errors(lit(with_airlight(scene, "max_error", max_error), frame.depth).airlight);
             const double median = errors[errors.size() / 2], p95 = errors[errors.size() * 95 / 100], worst = errors.back();
@@ -96,7 +96,7 @@ TEST(AirlightReference, IsTheExhaustiveQuadrature)
 // |estimate| >= |error| nearly everywhere, and no uselessly large one.
 TEST(AirlightErrorEstimate, BoundsTheError)
 {
-    const Frame frame = lit_frame(48, 32);
+    const Frame frame = lit_frame(36, 24);
     int bounded = 0, all = 0;
     std::vector<double> excess;
     for (const auto &[name, scene, tiers] : lit_scenes()) {
@@ -163,9 +163,10 @@ TEST_P(AirlightPhysics, EnergyOfALightWithinABallOfFogAddsUp)
     const double away = 15, intensity = 10;
     for (double peak : {0.0005, 0.8})
         for (double offset : {0.0, 0.5}) {
-            Json scene =
-                lit_scene({{"scattering", peak}, {"g", peak < 0.1 ? 0 : 0.3}, {"density", {gaussian({offset, 0.3 * offset, -away}, 1, 1)}}},
-                          Json::array({point_light({0, 0, -away}, intensity)}));
+            Json scene = lit_scene({{"scattering", peak},
+                                    {"g", peak < 0.1 ? 0 : 0.3},
+                                    {"density", {gaussian({offset, 0.3 * offset, -away}, 1, 1)}}},
+                                   Json::array({point_light({0, 0, -away}, intensity)}));
             scene["camera"]["vertical_fov"] = 30;
             auto seen_at = [&](int size) {
                 const Exhaustive rays(scene, size, size);
