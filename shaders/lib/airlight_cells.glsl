@@ -149,7 +149,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                 total.radiance += f * coloured[j];
                 if (j > 1) {
                     vec3 error = abs(f - R(2.0) * last + before) * coloured[j - 1] / R(5.0);
-                    total.error += error;
+                    total.error += R(2.0) * error;
                     weight[j - 1] += error.x + error.y + error.z;
                 }
                 before = last;

@@ -25,7 +25,7 @@ PURE vec4 upsampled(sampler2D reduced, sampler2D distances, int reduction, ivec2
         float ratio = log2(max(texelFetch(distances, texel, 0).x, R(1e-30)) / max(distance, R(1e-30)));
         float apart = abs(ratio);
         float weight = (corner.x == 1 ? f.x : R(1.0) - f.x) * (corner.y == 1 ? f.y : R(1.0) - f.y) *
-                       exp(-min(ratio * ratio * R(25.0), R(80.0)));
+                       exp(-min(ratio * ratio * R(150.0), R(80.0)));
         sum += weight * value;
         weights += weight;
         if (apart < least) {

@@ -184,7 +184,7 @@ TEST_P(AirlightOn, AVisibleLampIsCountedOnce)
         scene["camera"]["vertical_fov"] = 80;
         scene["effects"]["multiscatter"]["masking"] = false;
         const Exhaustive exact(scene, size, size);
-        double shown = 0, lit = 0;
+        double lamp = 0;
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 const auto ray = exact.ray(x, y, 1);
@@ -193,9 +193,9 @@ TEST_P(AirlightOn, AVisibleLampIsCountedOnce)
                     continue;
                 frame.depth.at(x, y)[0] = float(distance);
                 std::fill_n(frame.color.at(x, y), 3, float(radiance));
-                shown += radiance;
+                lamp += radiance;
             }
-        lit = shown * (1 - std::exp(-tau));
+        const double lit = lamp * (1 - std::exp(-tau));
         Json alone = scene;
         alone["effects"].erase("airlight");
         const Result both = fogged(scene, frame, shown | BRUME_OUTPUT_SCATTERED),
@@ -204,7 +204,7 @@ TEST_P(AirlightOn, AVisibleLampIsCountedOnce)
         printf(
             "tau %.1f: of what is scattered (%.0f) multiscatter alone brings %.3f; beside the airlight's %.3f (tau e^-tau: "
             "%.3f) it brings %.3f\n",
-            tau, lit, all / lit, airlight / lit, tau * std::exp(-tau) * shown / lit, rest / lit);
+            tau, lit, all / lit, airlight / lit, tau * std::exp(-tau) * lamp / lit, rest / lit);
         EXPECT_NEAR(rest / all, 1 - tau * std::exp(-tau) / (1 - std::exp(-tau)), 0.02) << tau;
         EXPECT_NEAR((airlight + rest) / all, 1, 0.1) << tau;
     }

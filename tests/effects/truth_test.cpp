@@ -113,12 +113,16 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
     const struct {
         const char *name, *medium;
         double bound;  // of relMSE
-    } cases[] = {{"dark", "h1s", 0.01}, {"lamps", "g1s", 0.01}};
-    for (auto &[name, medium, bound] : cases) {
+        double energy_bound;
+        const char *resolution;
+    } cases[] = {{"dark", "h1s", 0.01, 0.03, "full"},
+                 // Its floor and wall light the fog too, which the airlight of the lamps is not.
+                 {"lamps", "g1s", 0.06, 0.08, "quarter"}};
+    for (auto &[name, medium, bound, energy_bound, resolution] : cases) {
         const std::string file = folder / (std::string(name) + "_" + medium);
         const Json description = Json::parse(std::ifstream(file + ".json"));
         Json scene = scene_of(description);
-        scene["effects"]["airlight"] = Json::object();
+        scene["effects"]["airlight"] = {{"resolution", resolution}};
         for (const Json &emitter : description["emitters"])
             scene["lights"].push_back({{"type", "point"},
                                        {"position", emitter["position"]},
@@ -134,7 +138,7 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
             printf("%s %s airlight on %s: relMSE %.4f, energy %.3f, without fog %.3f\n", name, medium, where, error, ratio,
                    rel_mse(read_exr(clear, {"R", "G", "B"}), truth));
             EXPECT_LT(error, bound) << name << " " << medium << " on " << where;
-            EXPECT_NEAR(ratio, 1, 0.03) << name << " " << medium << " on " << where;
+            EXPECT_NEAR(ratio, 1, energy_bound) << name << " " << medium << " on " << where;
         }
     }
 }
