@@ -33,8 +33,8 @@ paint --seed 4 --plane-point 0,0,0.9 --radius 2.2 --amplitude 0.35 --stroke "-1.
   --plane 0,1,0 --plane-point 0,24,0 --radius 0.9 --amplitude 0.3 --jitter 0.6
 # Sprayed against the houses on the left, where it stays between wall and lamp posts; then some of it across the street.
 "$brume" media airbrush "$bank" --seed 6 --frame "$frame" --position=-4.2,15,0.8 --velocity=-1.5,1,0 --spread 1 \
-  --diffusion 0.25 --rate 40 --duration 8 --radius 0.55 --amplitude 0.35
-"$brume" media copy "$bank" --frame "$frame" --rect 60,180,170,330 --by 8.6,9,0
+  --diffusion 0.25 --rate 40 --duration 8 --radius 0.6 --amplitude 0.2
+"$brume" media copy "$bank" --frame "$frame" --rect 100,180,235,330 --by 9.5,9,0
 # A gap behind the car that has just driven through.
 "$brume" media erase "$bank" --stroke "0.8,14,0.6 0.8,27,0.6" --radius 2 --strength 0.6
 

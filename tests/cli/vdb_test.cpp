@@ -1,4 +1,6 @@
 // `brume media fit` on OpenVDB files made here.
+#include <random>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
@@ -84,7 +86,7 @@ TEST_F(FitTool, AveragesWhatIsLarge)
     grid->setTransform(transform);
     grid->fill(openvdb::CoordBBox({0, 0, 0}, {191, 127, 63}), 1.0f);
     write({grid});
-    const json said = fit({"--count", "20"});
+    const json said = fit({"--count", "5"});
     EXPECT_EQ(said["grid"], "smoke");
     EXPECT_EQ(said["averaged"], 2);
     const double mass = 19.2 * 12.8 * 6.4 * (1 + said["mass_error"].get<double>());
@@ -113,6 +115,27 @@ TEST_F(FitTool, RefusesWhatItCannotFit)
     write({bad});
     refused("at 1, 2, 3; expected finite");
     EXPECT_FALSE(fs::exists(out_));
+}
+
+// Whatever is wrong with a file, the tool says so and lives on.
+TEST_F(FitTool, DamagedFilesAreRefused)
+{
+    write({puff()});
+    const std::string whole = read_text(vdb_);
+    std::mt19937_64 random(1);
+    size_t refusals = 0;
+    for (int i = 0; i < 30; ++i) {
+        std::string damaged = whole;
+        if (i % 3 == 0)
+            damaged.resize(random() % damaged.size());
+        else
+            damaged[random() % (i % 3 == 1 ? 3000 : damaged.size())] = char(random());
+        write_text(vdb_, damaged);
+        const Result result = brume({"media", "fit", vdb_.string(), "-o", out_.string(), "--count", "2"});
+        ASSERT_TRUE(result.status == 0 || result.status == 2) << result.status << ' ' << result.err;
+        refusals += result.status == 2;
+    }
+    EXPECT_GT(refusals, 10u);
 }
 
 }  // namespace

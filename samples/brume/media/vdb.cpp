@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
 #include "support/error.hpp"
+#include "support/isolated.hpp"
 
 namespace brume::tool {
 namespace {
@@ -39,9 +41,7 @@ openvdb::GridBase::Ptr find_grid(openvdb::io::File &file, const std::string &pat
     return file.readGrid(chosen);
 }
 
-}  // namespace
-
-VdbDensity read_vdb(const std::filesystem::path &path, const std::string &name)
+VdbDensity read_here(const std::filesystem::path &path, const std::string &name)
 try {
     if (!std::filesystem::is_regular_file(path))
         throw RequestError(fmt::format("{}: cannot be opened for reading", path.string()));
@@ -106,6 +106,51 @@ try {
     return density;
 } catch (const openvdb::Exception &e) {
     throw RequestError(fmt::format("{}: {}", path.string(), e.what()));
+}
+
+// What has a fixed size, the name, the values: between two copies of this process.
+struct Head {
+    std::array<int, 3> size;
+    std::array<double, 3> origin;
+    std::array<std::array<double, 3>, 3> axes;
+    double voxel;
+    int averaged;
+    bool level_set;
+    std::size_t name_length;
+};
+
+std::string text_of(const VdbDensity &density)
+{
+    const Head head{density.grid.size, density.origin,    density.axes,       density.voxel,
+                    density.averaged,  density.level_set, density.name.size()};
+    std::string text(reinterpret_cast<const char *>(&head), sizeof head);
+    text += density.name;
+    text.append(reinterpret_cast<const char *>(density.grid.values.data()), density.grid.values.size() * sizeof(float));
+    return text;
+}
+
+VdbDensity density_of(const std::string &text)
+{
+    Head head;
+    std::memcpy(&head, text.data(), sizeof head);
+    const std::size_t values = sizeof head + head.name_length;
+    VdbDensity density{{head.size, std::vector<float>((text.size() - values) / sizeof(float))},
+                       text.substr(sizeof head, head.name_length),
+                       head.origin,
+                       head.axes,
+                       head.voxel,
+                       head.averaged,
+                       head.level_set};
+    std::memcpy(density.grid.values.data(), text.data() + values, density.grid.values.size() * sizeof(float));
+    return density;
+}
+
+}  // namespace
+
+VdbDensity read_vdb(const std::filesystem::path &path, const std::string &name)
+{
+    // OpenVDB follows whatever offsets and sizes a damaged file has.
+    return density_of(isolated(path.string(), [&] { return text_of(read_here(path, name)); }));
 }
 
 }  // namespace brume::tool
