@@ -25,12 +25,16 @@ struct Rates {
     double operations_per_ms;
 };
 
+bool on_llvmpipe(const Backend &backend)
+{
+    return backend.device().find("llvmpipe") != std::string::npos;
+}
+
 Rates nominal_rates(const Backend &backend)
 {
     if (backend.kind() == BRUME_BACKEND_CPU)
         return {4e6 * std::min(backend.threads(), 4u), 6e5 * backend.threads()};
-    bool software = backend.device().find("llvmpipe") != std::string::npos;
-    return software ? Rates{2e6, 4e5} : Rates{3e8, 1e9};
+    return on_llvmpipe(backend) ? Rates{2e6, 4e5} : Rates{3e8, 1e9};
 }
 
 std::string output_names(uint32_t outputs)
@@ -221,6 +225,14 @@ void brume_host_t::plan_content(const View &view, brume_plugin_scene &scene)
     if (any_gaussians)
         need_camera(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE, "the medium's Gaussians are placed in the world");
     scene_images_.plan(*this, scene, format_, context_->backend->kind());
+}
+
+void brume_host_t::warn_on_software_gl(const std::string &message)
+{
+    if (warned_ || !on_llvmpipe(*context_->backend))
+        return;
+    warned_ = true;
+    context_->log(BRUME_LOG_WARNING, message);
 }
 
 void brume_host_t::evaluate_content(double frame, const View &view, brume_plugin_scene &scene)

@@ -58,6 +58,9 @@ public:
     brume_plugin_pixels pixels(brume_plugin_image image);
     brume_plugin_image upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels);
 
+    // Logged as a warning where the device is Mesa's software GL, once per plan.
+    void warn_on_software_gl(const std::string &message);
+
 private:
     // A data image and, on the CPU, the memory that it wraps.
     struct Data {
@@ -101,4 +104,5 @@ private:
     const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
     const brume_plugin_scene *current_scene_ = nullptr;
     std::string failure_;
+    bool warned_ = false;
 };

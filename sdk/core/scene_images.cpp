@@ -1,5 +1,6 @@
 #include "core/scene_images.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -13,6 +14,9 @@ namespace brume {
 namespace {
 
 constexpr const char *pass_name = "gaussians";
+// Mesa's software GL ends all loops of a shader's invocation after 65,535 turns and goes on with what it has by then.
+constexpr float most_on_llvmpipe = 500;
+
 enum Slot : uint32_t { slot_gaussians, slot_tiles, slot_tile_gaussians, slot_lights };
 
 }  // namespace
@@ -46,6 +50,9 @@ brume_status SceneImages::execute(brume_host_t &host, brume_plugin_frame &frame)
                                      uint64_t(scene.gaussian_count) * 2);
             tiles_ = host.upload(slot_tiles, 4, lists_.ranges.data(), lists_.ranges.size() / 4);
             tile_gaussians_ = host.upload(slot_tile_gaussians, 1, lists_.indices.data(), lists_.indices.size());
+            if (longest_list() > most_on_llvmpipe)
+                host.warn_on_software_gl("medium.density: " + std::to_string(int(longest_list())) + " Gaussians lie behind one tile; " +
+                                         "llvmpipe may end loops over so many early and leave lights dark, the CPU backend does not");
         }
         revision_ = scene.revision;
         camera_ = scene.camera;
@@ -60,6 +67,14 @@ brume_status SceneImages::execute(brume_host_t &host, brume_plugin_frame &frame)
     frame.tiles = tiles_;
     frame.tile_gaussians = tile_gaussians_;
     return program_ ? density_gl(host, frame) : density_cpu(host, frame);
+}
+
+float SceneImages::longest_list() const
+{
+    float most = 0;
+    for (size_t i = 1; i < lists_.ranges.size(); i += 4)
+        most = std::max(most, lists_.ranges[i]);
+    return most;
 }
 
 brume_status SceneImages::density_gl(brume_host_t &host, const brume_plugin_frame &frame)

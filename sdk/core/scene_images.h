@@ -17,7 +17,7 @@ public:
     brume_status execute(brume_host_t &host, brume_plugin_frame &frame);
 
 private:
-    brume_status upload_gaussians(brume_host_t &host, brume_plugin_frame &frame);
+    float longest_list() const;
     brume_status density_cpu(brume_host_t &host, const brume_plugin_frame &frame);
     brume_status density_gl(brume_host_t &host, const brume_plugin_frame &frame);
 

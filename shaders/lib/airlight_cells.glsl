@@ -163,10 +163,10 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         knots = steps;
         float beside = R(0.0);
         for (int j = 0; j < steps; ++j) {
-            float e = max(max(weight[j], beside), R(1e-3) * error / float(steps));
+            float e = max(max(weight[j], beside) / error, R(1e-3) / float(steps));
             beside = weight[j];
             knot[j] = edge[j];
-            weight[j] = exp(log(max(e, R(1e-37))) / R(3.0));
+            weight[j] = exp(log(e) / R(3.0));
         }
         knot[steps] = end;
     }

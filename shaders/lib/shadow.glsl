@@ -50,16 +50,19 @@ PURE float listed_density(sampler2D gaussians, sampler2D cells, sampler2D cell_g
     int first = int(list.x);
     int count = int(list.y);
     float sum = R(0.0);
-    for (int i = 0; i < count; ++i) {
-        Gaussian g = gaussian_at(gaussians, int(data_texel(cell_gaussians, first + i).x));
-        // Most of a list is passed at a distance: a millionth of a Gaussian's depth is beyond.
-        vec3 b = g.center - point;
-        float middle = dot(b, direction);
-        float beyond = max(max(middle - distance, -middle), R(0.0));
-        vec3 aside = cross(direction, b);
-        if (g.scale * g.scale * dot(aside, aside) < R(14.0) && g.scale * beyond < R(3.5))
-            sum += profile_depth(profile_along(g, point, direction), R(0.0), distance);
-    }
+    // Four at a time: Mesa's software GL ends all loops of an invocation after 65,535 turns.
+    for (int i = 0; i < count; i += 4)
+        for (int k = 0; k < 4; ++k) {
+            int entry = first + min(i + k, count - 1);
+            Gaussian g = gaussian_at(gaussians, int(data_texel(cell_gaussians, entry).x));
+            // Most of a list is passed at a distance: a millionth of a Gaussian's depth is beyond.
+            vec3 b = g.center - point;
+            float middle = dot(b, direction);
+            float beyond = max(max(middle - distance, -middle), R(0.0));
+            vec3 aside = cross(direction, b);
+            if (i + k < count && g.scale * g.scale * dot(aside, aside) < R(14.0) && g.scale * beyond < R(3.5))
+                sum += profile_depth(profile_along(g, point, direction), R(0.0), distance);
+        }
     return min(sum, density_limit);
 }
 
