@@ -62,7 +62,10 @@ public:
         for (size_t i = 0; i < seen_.size(); ++i) {
             const Gaussian &g = scene_.gaussians[i];
             const double y = seen_[i].scale * (t - seen_[i].middle);
-            depth += integral_of(seen_[i], t) + integral_of(profile_along(g, x, -way), d);
+            const Profile shadow = profile_along(g, x, -way);
+            depth += integral_of(seen_[i], t);
+            if (shadow.peak > 1e-14 * g.amplitude)
+                depth += integral_of(shadow, d);
             scattering += seen_[i].peak * std::exp(-y * y) * g.colour;
         }
         return strength * light_.intensity * medium.scattering * scattering *
@@ -91,10 +94,13 @@ public:
                     t.push_back(lit.y);
                 }
         }
+        // Many Gaussians part the ray finely enough between them.
+        const bool many = seen_.size() > 16;
         for (const Profile &p : seen_)
             if (p.peak > 0)
                 for (double s : {-6.0, -3.0, -1.5, 0.0, 1.5, 3.0, 6.0})
-                    t.push_back(p.middle + s / p.scale);
+                    if (!many || s == 0 || std::abs(s) == 3)
+                        t.push_back(p.middle + s / p.scale);
         std::erase_if(t, [&](double x) { return !(x >= 0 && x <= distance); });
         std::sort(t.begin(), t.end());
         return t;

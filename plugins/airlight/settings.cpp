@@ -18,6 +18,8 @@ AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene
     s.environment_order = state.environment_order;
     s.light_count = int(scene.light_count);
     s.gaussian_count = int(scene.gaussian_count);
+    // Of one Gaussian reach_share at most; of all that light a pixel, measured (tests AirlightErrorEstimate).
+    s.culled = scene.gaussian_count > 0 ? 0.3f * reach_share : 0.0f;
     brume::airlight::set_quality(s, state.parameters.max_error);
     return s;
 }

@@ -17,7 +17,7 @@ struct AirlightSettings {
     int cells;             // of that integral, at most max_cells
     float tolerance;       // of a panel, relative to the whole
     float near_radii;      // a light nearer than so many radii of a Gaussian needs other nodes
-    float culled;          // [m at unit density] that may be missing from the lists, per path
+    float culled;          // share of the airlight that may be missing by what the lists leave out
 };
 
 struct Airlight {

@@ -149,7 +149,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                 total.radiance += f * coloured[j];
                 if (j > 1) {
                     vec3 error = abs(f - R(2.0) * last + before) * coloured[j - 1] / R(5.0);
-                    total.error += R(2.0) * error;
+                    total.error += R(1.2) * error;
                     weight[j - 1] += error.x + error.y + error.z;
                 }
                 before = last;
@@ -157,7 +157,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
             }
         }
         float error = total.error.x + total.error.y + total.error.z;
-        if (error <= R(3.0) * settings.tolerance * (total.radiance.x + total.radiance.y + total.radiance.z))
+        if (error <= R(1.8) * settings.tolerance * (total.radiance.x + total.radiance.y + total.radiance.z))
             return total;
         // Of second order: best with steps in the ratio of the cube roots of the cells' errors.
         knots = steps;

@@ -8,7 +8,6 @@ PURE Airlight airlight_by_nodes(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         total = airlight_by_parts(medium, camera, settings, AIRLIGHT_PASSED, sight, first_light, last_light);
     else
         total = airlight_by_cells(medium, camera, settings, AIRLIGHT_PASSED, sight, first_light, last_light);
-    // What lists left out would have dimmed it further, on the way from the light and to the camera.
-    total.error += total.radiance * min(R(2.0) * optical_depth(medium, settings.culled), vec3(R(1.0)));
+    total.error += settings.culled * total.radiance;
     return Airlight(min(total.radiance, vec3(radiance_limit)), min(total.error, vec3(radiance_limit)));
 }

@@ -168,7 +168,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
     if (path.kind == path_bell)
         error = dz == R(1.0) ? R(0.04) * upper * fall : R(0.5) * error * fall;
     else if (path.crowded == 2)
-        error = dz == R(1.0) ? R(0.25) * upper * fall : R(0.5) * error * fall;
+        error = dz == R(1.0) ? R(0.35) * upper * fall : R(0.7) * error * fall;
     else if (path.crowded == 0)
         error *= R(2.0) * fall;
     return Panel(sum, error + R(9e-8) * noise, upper * fall * fall);

@@ -104,10 +104,13 @@ private:
 };
 
 // Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send less
-// than 1e-12 are left out: nothing arrives.
+// than 1e-12 are left out: nothing arrives. Errors of `rounding` or less are no matter for an estimate.
 struct Errors {
+    static constexpr double rounding = 2e-6;
+
     std::vector<double> relative;
     std::vector<double> overestimate;  // estimate / error
+    size_t bounded = 0;
     double seconds = 0;
 
     void add(const narrow::Airlight &found, vec3 exact)
@@ -119,7 +122,16 @@ struct Errors {
             return;
         const double error = std::abs(value - reference);
         relative.push_back(error / reference);
-        overestimate.push_back(estimate / std::max(error, 1e-8 * reference));
+        bounded += error <= estimate + rounding * reference;
+        if (error > rounding * reference)
+            overestimate.push_back(estimate / error);
+    }
+    void append(const Errors &other)
+    {
+        relative.insert(relative.end(), other.relative.begin(), other.relative.end());
+        overestimate.insert(overestimate.end(), other.overestimate.begin(), other.overestimate.end());
+        bounded += other.bounded;
+        seconds += other.seconds;
     }
     double mean() const
     {
@@ -128,17 +140,13 @@ struct Errors {
             sum += e;
         return sum / double(relative.size());
     }
-    double covered() const
-    {
-        return double(std::count_if(overestimate.begin(), overestimate.end(), [](double r) { return r >= 1; })) /
-               double(overestimate.size());
-    }
+    double covered() const { return double(bounded) / double(relative.size()); }
 };
 
 inline double quantile(std::vector<double> v, double share)
 {
     std::sort(v.begin(), v.end());
-    return v.at(std::min(v.size() - 1, size_t(share * double(v.size()))));
+    return v.empty() ? 0 : v[std::min(v.size() - 1, size_t(share * double(v.size())))];
 }
 
 }  // namespace airlight_cases
