@@ -123,7 +123,8 @@ brume_status CpuPasses::blobs()
                   cell_gaussians = texture_of(cell_gaussians_), shadow_origins = texture_of(origins_);
     return for_rows(services_, host_, "blobs", (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, 1, [&](int y) {
         for (int x = 0; x < BRUME_DATA_WIDTH && y * BRUME_DATA_WIDTH + x < values; ++x)
-            *at(blob_density_, x, y) = blob_density_at(camera_, settings_, SHADOW_PASSED, lights, y * BRUME_DATA_WIDTH + x);
+            *at(blob_density_, x, y) =
+                blob_density_at(medium_, camera_, settings_, SHADOW_PASSED, lights, y * BRUME_DATA_WIDTH + x);
     });
 }
 

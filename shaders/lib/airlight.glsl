@@ -33,8 +33,8 @@ struct Sight {
     int count;
 };
 
-// blob_density: texel i (1 + light_count) + k is int rho dt of all Gaussians between origin k (shadow.glsl) and the centre of
-// Gaussian i. sun_table: airlight_sun.glsl.
+// blob_density: texel i (1 + light_count) + k is int rho dt between origin k (shadow.glsl) and the centre of Gaussian i, without
+// its own (airlight_fogshop.glsl). sun_table: airlight_sun.glsl.
 #define AIRLIGHT_IMAGES SHADOW_IMAGES, sampler2D lights, sampler2D tile_gaussians, sampler2D blob_density, sampler2D sun_table
 #define AIRLIGHT_PASSED SHADOW_PASSED, lights, tile_gaussians, blob_density, sun_table
 

@@ -1,4 +1,4 @@
-// The tier `nodes` where many Gaussians lie along the ray: their summed density in cells. Needs airlight.glsl.
+// The tier `nodes` where many Gaussians lie along the ray: their summed density in cells. Needs airlight.glsl, tiles.glsl.
 //
 // Between two edges the mass, its centroid and the transmittance to the camera are exact (erf and exp of each Gaussian at the
 // edges), whatever the density does there, and only the light is taken as it is at the centroid. That is of second order, but
@@ -30,7 +30,10 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     vec2 blobs = vec2(far_away, R(0.0));
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
-        float middle = sight_profile(medium, camera, g, sight.direction).middle;
+        Profile profile = sight_profile(medium, camera, g, sight.direction);
+        if (passed_by(medium, g, profile))
+            continue;
+        float middle = profile.middle;
         blobs = vec2(min(blobs.x, middle - R(3.0) / g.scale), max(blobs.y, middle + R(3.0) / g.scale));
     }
     float end = min(sight.distance, max(has_terms ? terms_range(medium, sight).y : R(0.0), blobs.y));
@@ -47,6 +50,8 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
         Profile profile = sight_profile(medium, camera, g, sight.direction);
+        if (passed_by(medium, g, profile))
+            continue;
         float before = erf(-profile.scale * profile.middle);
         float depth = R(0.886226925453) * profile_length(profile);
         for (int k = 0; k <= coarse_cells; ++k)
@@ -107,6 +112,8 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         for (int i = 0; i < sight.count; ++i) {
             Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
             Profile profile = sight_profile(medium, camera, g, sight.direction);
+            if (passed_by(medium, g, profile))
+                continue;
             float before = erf(-profile.scale * profile.middle);
             float depth = R(0.886226925453) * profile_length(profile);
             float arm = profile.middle - blobs.x;

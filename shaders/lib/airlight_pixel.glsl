@@ -23,14 +23,3 @@ PURE Airlight airlight_at(int tier, IN(Medium) medium, IN(Camera) camera, IN(Air
     }
     return a;
 }
-
-// Texel i of blob_density.
-PURE float blob_density_at(IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES, sampler2D lights, int i)
-{
-    int origins = 1 + settings.light_count;
-    vec3 center = gaussian_at(gaussians, i / origins).center;
-    int light = i % origins - 1;
-    if (light < 0)
-        return camera_density(SHADOW_PASSED, camera, center);
-    return shadow_density(SHADOW_PASSED, camera, light, light_at(lights, light), center);
-}

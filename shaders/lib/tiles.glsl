@@ -16,6 +16,15 @@ PURE float gaussian_reach(IN(Medium) medium, IN(Gaussian) g)
     return (sqrt(log(clamp(depth, R(1.0), R(1e30)) / reach_share)) + R(1.74) * medium.noise.x) / g.scale;
 }
 
+// Much of a list is passed at a distance: whether a path that meets it so is as good as without this Gaussian.
+PURE bool passed_by(IN(Medium) medium, IN(Gaussian) g, IN(Profile) along)
+{
+    vec3 extinction = medium.scattering + medium.absorption;
+    float most = max(max(extinction.x, extinction.y), extinction.z);
+    float share = R(0.3) * reach_share;
+    return along.peak <= share * g.amplitude && R(1.77245385091) * most * along.peak <= share * g.scale;
+}
+
 // First entry of the pixel's list and their number.
 PURE ivec2 tile_range(sampler2D tiles, int width, ivec2 pixel)
 {
@@ -37,8 +46,7 @@ PURE vec2 tile_density(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians
         int index = int(data_texel(tile_gaussians, range.x + i).x);
         Gaussian g = gaussian_at(gaussians, index);
         Profile p = sight_profile(medium, camera, g, ray.direction);
-        // Most of a list is passed at a distance.
-        if (p.peak > R(0.3) * reach_share * g.amplitude)
+        if (!passed_by(medium, g, p))
             sum += profile_density_moment(p, ray.distance);
     }
     return sum;

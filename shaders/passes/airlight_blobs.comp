@@ -20,6 +20,7 @@
 #include "environment.glsl"
 #include "airlight_pixel.glsl"
 
+uniform Medium brume_medium;
 uniform Camera brume_camera;
 uniform AirlightSettings airlight;
 uniform sampler2D gaussians;
@@ -35,5 +36,5 @@ void main()
     int i = p.y * 1024 + p.x;
     if (p.x >= brume_grid.x || i >= airlight.gaussian_count * (1 + airlight.light_count))
         return;
-    imageStore(density, p, vec4(blob_density_at(brume_camera, airlight, SHADOW_PASSED, lights, i), 0.0, 0.0, 1.0));
+    imageStore(density, p, vec4(blob_density_at(brume_medium, brume_camera, airlight, SHADOW_PASSED, lights, i), 0.0, 0.0, 1.0));
 }

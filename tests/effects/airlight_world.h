@@ -40,6 +40,7 @@ public:
                              l.cos_outer, l.intensity.x, l.intensity.y, l.intensity.z, l.cos_inner, double(l.type), l.distance, 0, 0});
         for (int i = 0; i < n; ++i)
             append(indices_, {double(i)});
+        seen_ = indices_;
         append(cells_, {0, double(n), 0, 0});
         for (size_t origin = 0; origin <= c.lights.size(); ++origin)
             append(origins_, {0, 0, 0, 0.5, 0, 0, 0, 0.5, 0, 1, 0, 0});
@@ -51,20 +52,19 @@ public:
         brume::airlight::set_quality(settings, max_error);
     }
 
+    // The ray's list holds these only; shadows are still of all.
+    void see_only(const std::vector<int> &gaussians) { seen_.assign(gaussians.begin(), gaussians.end()); }
+
     narrow::Airlight airlight(int tier)
     {
         const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4), cell_gaussians = image(indices_, 1),
-                              shadow_origins = image(origins_, 4), lights = image(lights_, 4), tile_gaussians = image(indices_, 1);
+                              shadow_origins = image(origins_, 4), lights = image(lights_, 4), tile_gaussians = image(seen_, 1);
         if (tier == narrow::airlight_fogshop && blob_density_.empty())
-            for (const Gaussian &g : case_.gaussians) {
-                const narrow::vec3 center(g.center);
-                blob_density_.push_back(narrow::camera_density(SHADOW_PASSED, camera_, center));
-                for (int l = 0; l < settings.light_count; ++l)
-                    blob_density_.push_back(narrow::shadow_density(SHADOW_PASSED, camera_, l, narrow::light_at(lights, l), center));
-            }
+            for (int i = 0; i < settings.gaussian_count * (1 + settings.light_count); ++i)
+                blob_density_.push_back(narrow::blob_density_at(medium_, camera_, settings, SHADOW_PASSED, lights, i));
         static const std::vector<float> table = brume::airlight::sun_table();
         const narrow::Texture blob_density = image(blob_density_, 1), sun_table = image(table, 1);
-        const narrow::Sight sight{narrow::vec3(case_.direction), float(case_.distance), 0, settings.gaussian_count};
+        const narrow::Sight sight{narrow::vec3(case_.direction), float(case_.distance), 0, int(seen_.size())};
         return narrow::airlight_of_tier(tier, medium_, camera_, settings, AIRLIGHT_PASSED, sight, 0, settings.light_count);
     }
 
@@ -100,7 +100,7 @@ private:
     const Case &case_;
     narrow::Medium medium_;
     narrow::Camera camera_{};
-    std::vector<float> gaussians_, lights_, indices_, cells_, origins_, blob_density_;
+    std::vector<float> gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_;
 };
 
 // Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send less

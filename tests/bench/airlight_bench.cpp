@@ -1,0 +1,337 @@
+// Fogshop's Table 1 and beyond on this machine's backends: airlight of n Gaussians and 1 or 3 lights at 800 x 600, as
+// milliseconds and as a ratio to a ray march of equal error; and how the time grows with what is out of sight, with lights and
+// with pixels.
+//
+//   airlight_bench [--quick] OUTPUT.json OUTPUT.md
+//
+// The tiers run at every fourth pixel each way. All pixels take 16 times as long for what is reduced, which the first rows measure
+// and the others say without running it. The march runs on the pixels whose error is measured.
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "airlight_world.h"
+#include "fog.h"
+#include "ray_march.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+using brume::maths_float::Gaussian;
+using brume::maths_float::Light;
+using brume::maths_float::vec3;
+using bench::March;
+
+constexpr float half_tangent = 0.36397f, wall = 14;  // of the camera's field of view; planar [m]
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+unsigned threads()
+{
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
+template <class F> void in_parallel(size_t count, F f)
+{
+    std::vector<std::jthread> all;
+    for (unsigned k = 0; k < threads(); ++k)
+        all.emplace_back([&, k] {
+            for (size_t i = k; i < count; i += threads())
+                f(i);
+        });
+}
+
+// A cloud of optical depth 1.5 that fills the view, with lights around it. More Gaussians are smaller ones.
+struct Cloud {
+    std::vector<Gaussian> gaussians;
+    std::vector<Light> lights;
+    float radius;
+
+    Cloud(int count, int light_count)
+    {
+        std::mt19937 random{uint32_t(count)};
+        auto uniform = [&](float a, float b) { return a + (b - a) * float(random() % 65536u) / 65536.0f; };
+        radius = 0.6f * std::cbrt(144.0f / float(count));
+        for (int i = 0; i < count; ++i) {
+            const float share = uniform(0.7f, 1.4f);
+            gaussians.push_back({vec3(uniform(-3, 3), uniform(-2, 2), uniform(-12, -6)), 1 / (share * radius),
+                                 0.25f / 1.2f * uniform(0.5f, 1.2f), vec3(1)});
+        }
+        const vec3 places[8] = {{-4, 2.5f, -8}, {4, 2, -9},     {0, -3.2f, -5}, {0, 3.5f, -11},
+                                {-4, -2, -11},  {4, -2.5f, -7}, {-2, 3.5f, -5}, {2, 3, -4}};
+        for (int l = 0; l < light_count; ++l) {
+            Light light{};
+            light.position = places[l];
+            light.intensity = vec3(30);
+            light.cos_outer = light.cos_inner = -1;
+            lights.push_back(light);
+        }
+    }
+    // As many again where neither the view nor the lights' paths meet them.
+    void hide(int count)
+    {
+        std::mt19937 random(7);
+        for (int i = 0; i < count; ++i) {
+            auto uniform = [&](float a, float b) { return a + (b - a) * float(random() % 65536u) / 65536.0f; };
+            gaussians.push_back({vec3(uniform(-30, 30), uniform(-30, 30), uniform(10, 40)), 1 / radius, 0.2f, vec3(1)});
+        }
+    }
+
+    void describe(brume_scene scene, brume_context context) const
+    {
+        std::vector<brume_gaussian> gs;
+        for (const Gaussian &g : gaussians) {
+            brume_gaussian out = BRUME_GAUSSIAN_INIT;
+            for (int i = 0; i < 3; ++i)
+                out.center[i] = double(g.center[i]);
+            out.scale = double(g.scale);
+            out.amplitude = double(g.amplitude);
+            gs.push_back(out);
+        }
+        brume_medium medium = BRUME_MEDIUM_INIT;
+        for (double &s : medium.scattering)
+            s = 1;
+        medium.gaussians = gs.data();
+        medium.gaussian_count = uint32_t(gs.size());
+        fog::Context::check(brume_scene_set_medium(scene, &medium), context);
+    }
+};
+
+struct Pixel {
+    int x, y;
+    double exact = 0;
+};
+
+struct View {
+    int width, height;
+
+    vec3 direction(const Pixel &p) const
+    {
+        const float scale = 2 * half_tangent / float(height);
+        return glm::normalize(vec3((float(p.x) + 0.5f - 0.5f * float(width)) * scale,
+                                   -(float(p.y) + 0.5f - 0.5f * float(height)) * scale, -1));
+    }
+};
+
+// Exact to some 1e-5: every Gaussian near the ray integrated by itself, with all Gaussians near its plane with the light.
+double exact_airlight(const Cloud &cloud, vec3 direction)
+{
+    using namespace airlight_cases;
+    using vec3 = brume::maths_double::vec3;
+    double sum = 0;
+    for (const Light &l : cloud.lights) {
+        Case c;
+        c.medium.scattering = vec3(1);
+        c.medium.luminance = vec3(1.0 / 3);
+        c.direction = direction;
+        c.distance = wall / -direction.z;
+        c.lights.push_back(airlight_cases::light_at(l.position));
+        c.lights[0].intensity = l.intensity;
+        const vec3 across = glm::normalize(glm::cross(c.direction, c.lights[0].position));
+        std::vector<int> near;
+        for (const auto &g : cloud.gaussians) {
+            const vec3 center(g.center);
+            if (double(g.scale) * std::abs(glm::dot(center, across)) > 4)
+                continue;
+            if (double(g.scale) * glm::length(glm::cross(center, c.direction)) < 4)
+                near.push_back(int(c.gaussians.size()));
+            c.gaussians.push_back({center, g.scale, g.amplitude, vec3(1)});
+        }
+        World world(c, 1e-5);
+        world.settings.dense_from = std::numeric_limits<int>::max();
+        world.see_only(near);
+        sum += world.airlight(airlight_nodes).radiance.x;
+    }
+    return sum;
+}
+
+// Mean relative error of a picture at these pixels.
+double error_of(const fog::Picture &airlight, const std::vector<Pixel> &pixels)
+{
+    double sum = 0;
+    for (const Pixel &p : pixels)
+        sum += std::abs(airlight.at(p.x, p.y)[0] - p.exact) / p.exact;
+    return sum / double(pixels.size());
+}
+
+struct Measured {
+    double gather_ms = 0;  // of the pass that the resolution reduces
+    double other_ms = 0;   // of the others
+    double lists_ms = 0;   // what a frame costs besides, if all has moved: lists, images of data
+    fog::Picture airlight;
+
+    double ms() const { return gather_ms + other_ms; }
+};
+
+Measured measure(brume_context context, const Cloud &cloud, const View &view, const std::string &tier, const std::string &resolution)
+{
+    Json lights = Json::array();
+    for (const Light &l : cloud.lights)
+        lights.push_back({{"type", "point"}, {"position", {l.position.x, l.position.y, l.position.z}}, {"intensity", l.intensity.x}});
+    const Json scene{{"brume", 1},
+                     {"camera", {{"vertical_fov", 2 * std::atan(half_tangent) * 57.29577951308232},
+                                 {"camera_to_world", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}}},
+                     {"medium", {{"scattering", 1}}},
+                     {"lights", lights},
+                     {"effects", {{"airlight", {{"tier", tier}, {"resolution", resolution}}}}}};
+    const fog::Options options{{}, BRUME_OUTPUT_AIRLIGHT};
+    const fog::Picture black(view.width, view.height, 4), depth(view.width, view.height, 1, wall);
+    const fog::Plan plan(context, scene.dump(), view.width, view.height, options,
+                         [&](brume_scene s) { cloud.describe(s, context); });
+    Measured m;
+    const auto start = Clock::now();
+    m.airlight = plan.execute(black, depth, options).airlight;
+    const double all = 1e3 * seconds_since(start);
+    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    brume_plan_get_info(plan, &info);
+    for (uint32_t e = 0; e < info.entry_count; ++e) {
+        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+        brume_plan_get_entry(plan, e, &entry);
+        if (entry.runs && std::string(entry.name) != "blobs")
+            (std::string(entry.name) == "gather" ? m.gather_ms : m.other_ms) += std::max(entry.measured_ms, 0.0);
+    }
+    m.lists_ms = std::max(all - m.ms(), 0.0);
+    return m;
+}
+
+struct Marched {
+    int steps = 0;
+    double ms = 0, error = 0;
+};
+
+// The least number of steps, in ratios of about 1.4, whose error is no larger; its time for all pixels on all threads.
+Marched marched_to(const March &march, const Cloud &cloud, const View &view, const std::vector<Pixel> &pixels, double error)
+{
+    for (double steps = 2;; steps *= 1.4142135623730951) {
+        Marched m{int(steps)};
+        const auto start = Clock::now();
+        for (const Pixel &p : pixels) {
+            const vec3 direction = view.direction(p);
+            m.error += std::abs(march.airlight(direction, wall / -direction.z, cloud.lights, m.steps) - p.exact) / p.exact;
+        }
+        m.ms = 1e3 * seconds_since(start) / double(pixels.size()) * view.width * view.height / threads();
+        m.error /= double(pixels.size());
+        if (m.error <= error || steps > 400)
+            return m;
+    }
+}
+
+class Report {
+public:
+    void heading(const std::string &text) { markdown_ += text; }
+    void row(const Json &values, const std::string &line)
+    {
+        json_.push_back(values);
+        markdown_ += line;
+        std::cout << line << std::flush;
+    }
+    void write(const char *json, const char *markdown) const
+    {
+        std::ofstream(json) << json_.dump(1) << '\n';
+        std::ofstream(markdown) << markdown_;
+    }
+
+private:
+    Json json_ = Json::array();
+    std::string markdown_;
+};
+
+const View table_view{800, 600};
+
+void table(Report &report, bool quick)
+{
+    report.heading("| Gaussians | lights | tier | ms, all pixels | ms, quarter | lists ms | mean error | march: steps | its error | ms | march / tier |\n"
+                   "| ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    for (int n : {34, 292, 353, 1223, 3008, 10000, 100000}) {
+        if (quick && n > 353)
+            break;
+        for (int light_count : {1, 3}) {
+            const Cloud cloud(n, light_count);
+            const March march(cloud.gaussians, cloud.radius);
+            // Those that the reduced resolution evaluates.
+            std::vector<Pixel> pixels;
+            std::mt19937 random(3);
+            for (int i = 0; i < (n > 10000 ? 24 : 96); ++i)
+                pixels.push_back({4 * int(random() % 200u) + 2, 4 * int(random() % 150u) + 2});
+            in_parallel(pixels.size(), [&](size_t i) { pixels[i].exact = exact_airlight(cloud, table_view.direction(pixels[i])); });
+            for (const char *tier : {"fogshop", "nodes"}) {
+                const Measured m = measure(fog::cpu(), cloud, table_view, tier, "quarter");
+                const bool all = n == 34 && light_count == 1;
+                const double full_ms = all ? measure(fog::cpu(), cloud, table_view, tier, "full").ms() : 16 * m.gather_ms + m.other_ms;
+                const double error = error_of(m.airlight, pixels);
+                const Marched marched = marched_to(march, cloud, table_view, pixels, error);
+                report.row({{"backend", "cpu"}, {"gaussians", n}, {"lights", light_count}, {"tier", tier}, {"all_pixels_ms", full_ms},
+                            {"all_pixels_measured", all}, {"quarter_ms", m.ms()}, {"lists_ms", m.lists_ms}, {"mean_error", error},
+                            {"march_steps", marched.steps}, {"march_error", marched.error}, {"march_ms", marched.ms},
+                            {"march_over_tier", marched.ms / full_ms}},
+                           fmt::format("| {} | {} | {} | {:.3g} | {:.3g} | {:.3g} | {:.2g} | {} | {:.2g} | {:.3g} | {:.2g} |\n", n, light_count, tier,
+                                       full_ms, m.ms(), m.lists_ms, error, marched.steps, marched.error, marched.ms, marched.ms / full_ms));
+            }
+        }
+    }
+}
+
+void growth(Report &report, const char *what, const char *header, const std::vector<int> &values, int most,
+            const std::function<std::pair<Cloud, View>(int)> &make)
+{
+    report.heading(fmt::format("\n| {} | fogshop ms | nodes ms | lists ms |\n| ---: | ---: | ---: | ---: |\n", header));
+    for (int value : values) {
+        if (value > most)
+            break;
+        const auto [cloud, view] = make(value);
+        const Measured fogshop = measure(fog::cpu(), cloud, view, "fogshop", "quarter"), nodes = measure(fog::cpu(), cloud, view, "nodes", "quarter");
+        report.row({{"growth", what}, {what, value}, {"fogshop_ms", fogshop.ms()}, {"nodes_ms", nodes.ms()}, {"lists_ms", nodes.lists_ms}},
+                   fmt::format("| {} | {:.3g} | {:.3g} | {:.3g} |\n", value, fogshop.ms(), nodes.ms(), nodes.lists_ms));
+    }
+}
+
+void on_gl(Report &report)
+{
+    if (!fog::gl())
+        return;
+    brume_context_info info = BRUME_CONTEXT_INFO_INIT;
+    brume_context_get_info(*fog::gl(), &info);
+    report.heading(fmt::format("\n| on {} | lights | tier | ms, quarter | on the CPU |\n| ---: | ---: | --- | ---: | ---: |\n", info.device));
+    for (int n : {34, 353})
+        for (const char *tier : {"fogshop", "nodes"}) {
+            const Cloud cloud(n, 1);
+            const Measured gl = measure(*fog::gl(), cloud, table_view, tier, "quarter"), cpu = measure(fog::cpu(), cloud, table_view, tier, "quarter");
+            report.row({{"backend", "gl"}, {"gaussians", n}, {"lights", 1}, {"tier", tier}, {"quarter_ms", gl.ms()}, {"cpu_quarter_ms", cpu.ms()}},
+                       fmt::format("| {} | 1 | {} | {:.3g} | {:.3g} |\n", n, tier, gl.ms(), cpu.ms()));
+        }
+}
+
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    const bool quick = argc > 1 && std::string(argv[1]) == "--quick";
+    if (argc != (quick ? 4 : 3)) {
+        std::cerr << "usage: airlight_bench [--quick] OUTPUT.json OUTPUT.md\n";
+        return 2;
+    }
+    Report report;
+    table(report, quick);
+    growth(report, "out_of_sight", "300 Gaussians in sight, and out of sight", {0, 300, 3000, 30000, 100000}, quick ? 3000 : 100000, [](int n) {
+        Cloud cloud(300, 1);
+        cloud.hide(n);
+        return std::pair(cloud, table_view);
+    });
+    growth(report, "lights", "300 Gaussians, and lights", {1, 2, 4, 8}, 8, [](int n) { return std::pair(Cloud(300, n), table_view); });
+    growth(report, "pixels", "300 Gaussians, and pixels of the image", {120000, 480000, 1920000}, quick ? 480000 : 1920000, [](int n) {
+        const int height = int(std::lround(std::sqrt(n * 0.75)));
+        return std::pair(Cloud(300, 1), View{height * 4 / 3, height});
+    });
+    on_gl(report);
+    report.write(argv[argc - 2], argv[argc - 1]);
+}
