@@ -18,7 +18,19 @@ struct Golden {
     const char *name;
     const char *medium;
     const char *parameters;
+    const char *lights = nullptr;  // of airlight; without any it is multiscatter
 };
+
+#define LANTERN(place) "{\"type\":\"point\",\"position\":" place ",\"intensity\":[180,120,66],\"radius\":0.13}"
+const char *const lanterns = LANTERN("[-4.5,9.5,3.74]") "," LANTERN("[4.5,17.5,3.74]");
+const char *const lantern_and_spot = LANTERN("[-4.5,9.5,3.74]") ","
+    "{\"type\":\"spot\",\"position\":[3,12,5],\"direction\":[-0.4,0,-1],\"intensity\":[200,240,300],\"angle\":45,"
+    "\"penumbra\":0.3}";
+#define BLOB(center, rest) "{\"type\":\"gaussian\",\"center\":" center "," rest "}"
+#define BANK                                                                                                              \
+    "\"density\":[{\"type\":\"constant\",\"value\":0.02}," BLOB("[-2,10,1]", "\"scale\":0.7,\"amplitude\":0.5") ","         \
+    BLOB("[0,12,0.5]", "\"scale\":0.5,\"amplitude\":0.3,\"colour\":[1,0.8,0.6]") ","                                      \
+    BLOB("[2,14,1]", "\"scale\":0.6,\"amplitude\":0.6") "]"
 
 const Golden goldens[] = {
     {"paper", "\"scattering\":[0.03,0.03,0.032],\"g\":0.8", ""},
@@ -34,6 +46,11 @@ const Golden goldens[] = {
     {"paper_emission", "\"scattering\":0.02,\"absorption\":0.01,\"emission\":[0.004,0.005,0.008],\"droplet_diameter\":12",
      ""},
     {"reference", "\"scattering\":0.02,\"absorption\":0.01,\"g\":0.9", "\"kernel\":\"reference\""},
+    {"airlight_nodes", "\"scattering\":[0.3,0.3,0.31],\"droplet_diameter\":12," BANK, "\"max_error\":0.001",
+     lantern_and_spot},
+    {"airlight_nodes_half", "\"scattering\":[0.3,0.3,0.31],\"g\":0.5," BANK, "\"resolution\":\"half\"", lanterns},
+    {"airlight_fogshop", "\"scattering\":[0.3,0.3,0.31]," BANK, "\"tier\":\"fogshop\"", lanterns},
+    {"airlight_sun", "\"scattering\":[0.03,0.03,0.032],\"absorption\":0.01", "\"tier\":\"sun\"", lanterns},
 };
 
 struct Input {
@@ -69,7 +86,8 @@ std::string text_of(const Golden &golden)
     return std::string("{\"brume\":1,\"camera\":{\"vertical_fov\":36,\"camera_to_world\":[[1,0,0,0],[0,0,-1,0],[0,1,0,1.7],["
                        "0,0,0,1]]},"
                        "\"medium\":{") +
-           golden.medium + "},\"effects\":{\"multiscatter\":{" + golden.parameters + "}}}";
+           golden.medium + "}," + (golden.lights ? std::string("\"lights\":[") + golden.lights + "]," : "") +
+           "\"effects\":{\"" + (golden.lights ? "airlight" : "multiscatter") + "\":{" + golden.parameters + "}}}";
 }
 
 class GoldenTest : public testing::TestWithParam<Golden> {
