@@ -217,8 +217,7 @@ void brume_host_t::plan_content(const View &view, brume_plugin_scene &scene)
     scene.light_count = uint32_t(lights_.size());
     scene.environment = environment_.empty() ? nullptr : reinterpret_cast<const float(*)[3]>(environment_.data());
     scene.environment_count = uint32_t(environment_.size());
-    const bool any_gaussians =
-        scene_.medium && (!scene_.medium->gaussians.empty() || !scene_.medium->gaussian_sets.empty());
+    const bool any_gaussians = has_gaussians(scene_);
     scene.gaussian_count = any_gaussians ? 1 : 0;
     if (effects_.empty())
         return;

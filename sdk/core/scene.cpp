@@ -168,18 +168,29 @@ bool Scene::animated() const
            std::any_of(lights.begin(), lights.end(), [](const Light &light) { return brume::animated(light); });
 }
 
+bool has_gaussians(const Scene &scene)
+{
+    if (!scene.medium)
+        return false;
+    const auto dense = [](const GaussianTerm &term) { return !always_zero(term.amplitude); };
+    const auto holds_dense = [](const GaussianSet &set) {
+        const auto positive = [](const Gaussian &g) { return g.amplitude > 0.0; };
+        return !always_zero(set.amplitude) && (set.frames || std::any_of(set.fixed->begin(), set.fixed->end(), positive));
+    };
+    const Medium &medium = *scene.medium;
+    return std::any_of(medium.gaussians.begin(), medium.gaussians.end(), dense) ||
+           std::any_of(medium.gaussian_sets.begin(), medium.gaussian_sets.end(), holds_dense);
+}
+
 bool pose_matters(const Scene &scene)
 {
     if (!scene.medium)
         return false;
-    const auto dense = [](const auto &term) { return !always_zero(term.amplitude); };
     const auto varies = [](const DensityTerm &term) {
         return term.type == BRUME_DENSITY_EXPONENTIAL && !always_zero(term.falloff) && !always_zero(term.value);
     };
     const Medium &medium = *scene.medium;
-    return std::any_of(medium.density.begin(), medium.density.end(), varies) ||
-           std::any_of(medium.gaussians.begin(), medium.gaussians.end(), dense) ||
-           std::any_of(medium.gaussian_sets.begin(), medium.gaussian_sets.end(), dense);
+    return std::any_of(medium.density.begin(), medium.density.end(), varies) || has_gaussians(scene);
 }
 
 Scene with_peak_medium(Scene scene)

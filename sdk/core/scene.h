@@ -125,6 +125,9 @@ std::string scene_schema(const EffectRegistry &effects);
 // Whether some density term depends on the position.
 bool pose_matters(const Scene &scene);
 
+// Whether some Gaussian has density in some frame. Files that are read at each frame count as if they had.
+bool has_gaussians(const Scene &scene);
+
 // The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
 Scene with_peak_medium(Scene scene);
 

@@ -269,6 +269,36 @@ TEST_P(AirlightOn, BottomLeftOriginIsTheFlippedPicture)
     }
 }
 
+TEST(AirlightPlan, DropsGaussiansWithoutAmplitude)
+{
+    for (double amplitude : {0.0, 1.0}) {
+        const Json medium{{"scattering", 1}, {"density", {gaussian({0, 0, -5}, 1, amplitude)}}};
+        const Plan plan(cpu(), lit_scene(medium, Json::array({point_light({1, 0, -5}, 1)})).dump(), 8, 8);
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        brume_plan_get_info(plan, &info);
+        bool runs = false;
+        for (uint32_t i = 0; i < info.entry_count; ++i) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            brume_plan_get_entry(plan, i, &entry);
+            runs = runs || entry.runs;
+        }
+        EXPECT_EQ(runs, amplitude > 0);
+    }
+}
+
+// What comes from infinitely far through endless fog does not arrive.
+TEST_P(AirlightOn, EndlessFogHidesTheEnvironmentFromASkyAtInfinity)
+{
+    Json scene = lit_scene({{"scattering", 0.01}}, Json::array());
+    scene["environment"]["sh"] = {{1, 1, 1}};
+    const Picture color(2, 1, 4, 1);
+    Picture depth(2, 1, 1, INFINITY);
+    depth.at(1, 0)[0] = 100;
+    const Result r = run(backend(GetParam()), scene.dump(), color, depth);
+    EXPECT_EQ(r.output.at(0, 0)[0], 0);
+    EXPECT_GT(r.output.at(1, 0)[0], 0.3f);
+}
+
 TEST(AirlightThreads, AnyNumberGivesTheSameBits)
 {
     const Frame frame = lit_frame(61, 47);
