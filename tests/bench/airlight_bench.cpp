@@ -189,18 +189,26 @@ Measured measure(brume_context context, const Cloud &cloud, const View &view, co
     const fog::Plan plan(context, scene.dump(), view.width, view.height, options,
                          [&](brume_scene s) { cloud.describe(s, context); });
     Measured m;
-    const auto start = Clock::now();
-    m.airlight = plan.execute(black, depth, options).airlight;
-    const double all = 1e3 * seconds_since(start);
-    brume_plan_info info = BRUME_PLAN_INFO_INIT;
-    brume_plan_get_info(plan, &info);
-    for (uint32_t e = 0; e < info.entry_count; ++e) {
-        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
-        brume_plan_get_entry(plan, e, &entry);
-        if (entry.runs && std::string(entry.name) != "blobs")
-            (std::string(entry.name) == "gather" ? m.gather_ms : m.other_ms) += std::max(entry.measured_ms, 0.0);
+    const auto begin = Clock::now();
+    // The least of a few, where they are short: the machine may have other work.
+    for (int round = 0; round < 3 && (round == 0 || seconds_since(begin) < 3); ++round) {
+        const auto start = Clock::now();
+        m.airlight = plan.execute(black, depth, options).airlight;
+        const double all = 1e3 * seconds_since(start);
+        double gather = 0, other = 0;
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        brume_plan_get_info(plan, &info);
+        for (uint32_t e = 0; e < info.entry_count; ++e) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            brume_plan_get_entry(plan, e, &entry);
+            if (entry.runs && std::string(entry.name) != "blobs")
+                (std::string(entry.name) == "gather" ? gather : other) += std::max(entry.measured_ms, 0.0);
+        }
+        m.gather_ms = round == 0 ? gather : std::min(m.gather_ms, gather);
+        m.other_ms = round == 0 ? other : std::min(m.other_ms, other);
+        if (round == 0)
+            m.lists_ms = std::max(all - gather - other, 0.0);
     }
-    m.lists_ms = std::max(all - m.ms(), 0.0);
     return m;
 }
 
@@ -214,15 +222,22 @@ Marched marched_to(const March &march, const Cloud &cloud, const View &view, con
 {
     for (double steps = 2;; steps *= 1.4142135623730951) {
         Marched m{int(steps)};
-        const auto start = Clock::now();
-        for (const Pixel &p : pixels) {
-            const vec3 direction = view.direction(p);
-            m.error += std::abs(march.airlight(direction, wall / -direction.z, cloud.lights, m.steps) - p.exact) / p.exact;
-        }
-        m.ms = 1e3 * seconds_since(start) / double(pixels.size()) * view.width * view.height / threads();
-        m.error /= double(pixels.size());
-        if (m.error <= error || steps > 400)
-            return m;
+        auto run = [&] {
+            m.error = 0;
+            const auto start = Clock::now();
+            for (const Pixel &p : pixels) {
+                const vec3 direction = view.direction(p);
+                m.error += std::abs(march.airlight(direction, wall / -direction.z, cloud.lights, m.steps) - p.exact) / p.exact;
+            }
+            m.error /= double(pixels.size());
+            return 1e3 * seconds_since(start) / double(pixels.size()) * view.width * view.height / threads();
+        };
+        m.ms = run();
+        if (m.error > error && steps < 400)
+            continue;
+        for (int round = 0; round < 2 && m.ms < 3e6; ++round)
+            m.ms = std::min(m.ms, run());
+        return m;
     }
 }
 

@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    static constexpr float reach = 3.03f;  // radii: 1e-4 of the amplitude is beyond, as in the tiles' lists
+    static constexpr float reach = 3.7f;  // radii: no more than 2e-5 of a Gaussian's mass is beyond
 
     ivec3 cell(vec3 x) const
     {
