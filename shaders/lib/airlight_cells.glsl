@@ -37,7 +37,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         blobs = vec2(min(blobs.x, middle - R(3.0) / g.scale), max(blobs.y, middle + R(3.0) / g.scale));
     }
     float end = min(sight.distance, max(has_terms ? terms_range(medium, sight).y : R(0.0), blobs.y));
-    blobs = clamp(blobs, vec2(R(0.0)), vec2(end));
+    blobs = blobs.x < blobs.y ? clamp(blobs, vec2(R(0.0)), vec2(end)) : vec2(R(0.0), end);
 
     // The first round's knots, and what the cells between them matter: half their visible mass, half that times the light.
     float knot[max_cells + 1];

@@ -79,6 +79,15 @@ TEST_P(AirlightPhysics, AgreesWithExhaustiveQuadrature)
     }
 }
 
+// Its tile lists Gaussians that most of its rays do not meet.
+TEST_P(AirlightPhysics, RaysThatPassTheListedGaussiansBySeeTheRest)
+{
+    const Json blobs{constant(0.1), gaussian({-2.3, 2.2, -6}, 4, 3), gaussian({-2.5, 2.4, -6.5}, 4, 3)};
+    const Json scene = lit_scene({{"scattering", 0.3}, {"density", blobs}}, Json::array({point_light({1, 0.5, -8}, 10, 0.1)}));
+    const Frame frame = lit_frame(16, 16);
+    EXPECT_LT(Sampled(scene, frame, 60).errors(lit(scene, frame.depth).airlight)[170], 0.01);
+}
+
 TEST(AirlightReference, IsTheExhaustiveQuadrature)
 {
     const Frame frame = lit_frame(5, 4);
