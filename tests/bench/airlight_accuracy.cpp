@@ -1,5 +1,6 @@
-// airlight_accuracy [--quick | --rays N] OUT.json OUT.md: relative errors of the airlight's tiers against adaptive quadrature over
-// random geometries, regime by regime, and how far their error estimates can be trusted. N: at most so many rays per regime.
+// airlight_accuracy [--quick | --rays N] OUT.json OUT.md: relative errors of the airlight's tiers against adaptive
+// quadrature over random geometries, regime by regime, and how far their error estimates can be trusted. N: at most so many
+// rays per regime.
 #include <atomic>
 #include <chrono>
 #include <fstream>
@@ -75,25 +76,34 @@ Block measured_by_all_threads(const Regime &regime, int rays)
 int main(int argc, char **argv)
 {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    const bool quick = arguments.size() == 3 && arguments[0] == "--quick", fewer = arguments.size() == 4 && arguments[0] == "--rays";
+    const bool quick = arguments.size() == 3 && arguments[0] == "--quick",
+               fewer = arguments.size() == 4 && arguments[0] == "--rays";
     if (!quick && !fewer && (arguments.size() != 2 || arguments[0].starts_with("--"))) {
         std::cerr << "airlight_accuracy [--quick | --rays N] OUT.json OUT.md\n";
         return 2;
     }
     const int most = fewer ? std::max(8, std::stoi(arguments[1])) : std::numeric_limits<int>::max();
     nlohmann::ordered_json json;
-    std::string table = "| regime | rays | tier | mean | median | 95 % | 99 % | largest | estimate holds | estimate / error | us per ray |\n"
-                        "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+    std::string table =
+        "| regime | rays | tier | mean | median | 95 % | 99 % | largest | estimate holds | estimate / error | us per ray |\n"
+        "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
     auto add = [&](const std::string &regime, const std::string &tier, const Errors &e) {
         const double us = 1e6 * e.seconds / double(e.relative.size());
-        json["airlight"].push_back({{"regime", regime}, {"rays", e.relative.size()}, {"tier", tier}, {"mean", e.mean()},
-                                    {"median", quantile(e.relative, 0.5)}, {"p95", quantile(e.relative, 0.95)},
-                                    {"p99", quantile(e.relative, 0.99)}, {"max", quantile(e.relative, 1)},
-                                    {"estimate_holds", e.covered()}, {"estimate_over_error", quantile(e.overestimate, 0.5)},
+        json["airlight"].push_back({{"regime", regime},
+                                    {"rays", e.relative.size()},
+                                    {"tier", tier},
+                                    {"mean", e.mean()},
+                                    {"median", quantile(e.relative, 0.5)},
+                                    {"p95", quantile(e.relative, 0.95)},
+                                    {"p99", quantile(e.relative, 0.99)},
+                                    {"max", quantile(e.relative, 1)},
+                                    {"estimate_holds", e.covered()},
+                                    {"estimate_over_error", quantile(e.overestimate, 0.5)},
                                     {"us_per_ray", us}});
-        table += fmt::format("| {} | {} | {} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.1f} % | {:.2g} | {:.3g} |\n", regime,
-                             e.relative.size(), tier, e.mean(), quantile(e.relative, 0.5), quantile(e.relative, 0.95),
-                             quantile(e.relative, 0.99), quantile(e.relative, 1), 100 * e.covered(), quantile(e.overestimate, 0.5), us);
+        table += fmt::format("| {} | {} | {} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.1f} % | {:.2g} | {:.3g} |\n",
+                             regime, e.relative.size(), tier, e.mean(), quantile(e.relative, 0.5),
+                             quantile(e.relative, 0.95), quantile(e.relative, 0.99), quantile(e.relative, 1),
+                             100 * e.covered(), quantile(e.overestimate, 0.5), us);
     };
     Errors smooth, apart, near;
     for (const Regime &regime : regimes()) {
