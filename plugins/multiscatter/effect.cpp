@@ -40,6 +40,7 @@ private:
 
     brume_status need_camera(bool scatters);
     brume_status plan_levels(State &state);
+    brume_status plan_pyramid(State &state);
     brume_status plan_paper(State &state);
 
     const brume_services &services_;
@@ -81,6 +82,23 @@ brume_status Planner::plan_levels(State &state)
     return BRUME_OK;
 }
 
+brume_status Planner::plan_pyramid(State &state)
+{
+    if (brume_status s = plan_levels(state))
+        return s;
+    brume_status s;
+    if (state.top == 0) {
+        s = drop("pyramid", "one pixel: scattered light stays where it is");
+        if (!s)
+            s = run("compose", "attenuates; scattered light stays in its pixel", 16 + 4 + 16, 130);
+    } else {
+        s = state.parameters.kernel == Kernel::calibrated ? plan_calibrated(services_, host_, request_, state) : plan_paper(state);
+    }
+    if (!s && request_.backend == BRUME_BACKEND_GL)
+        s = compile_programs(services_, host_, request_.outputs, state);
+    return s;
+}
+
 brume_status Planner::plan_paper(State &state)
 {
     const brume::maths_float::Filter &f = state.parameters.filter;
@@ -90,51 +108,30 @@ brume_status Planner::plan_paper(State &state)
                 return s;
         return brume_status(BRUME_OK);
     };
-    brume_status s = plan_levels(state);
-    if (s)
-        return s;
-    if (state.top == 0) {
-        s = drop("pyramid", "one pixel: scattered light stays where it is");
-        if (s)
-            return s;
-    } else {
-        int stack_w = level_size({state.width, state.height}, 1).x;
-        int stack_h = stack_height(state.width, state.height, state.top);
-        double taps = state.parameters.taps * state.parameters.taps;
-        bool blurring = f.density_blurring != 0, separation = f.separation != 0;
-        s = check({image("radiance", state.width, state.height, 4, state.radiance),
-                   image("radiance levels", stack_w, stack_h, 4, state.radiance_stack),
-                   blurring ? image("spread levels", stack_w, stack_h, 1, state.spread_stack) : BRUME_OK,
-                   separation ? image("separated", state.width, state.height, 4, state.separated) : BRUME_OK,
-                   separation ? image("separated levels", stack_w, stack_h, 4, state.separated_stack) : BRUME_OK,
-                   run("scatter", "splits radiance into what arrives straight and what was scattered",
-                       16 + 4 + 16 + (separation ? 16 : 0), 120),
-                   run("downsample",
-                       "levels 1 to " + std::to_string(state.top) + " of the pyramid; each frame stops at that of its largest blur",
-                       (16 + 16 / 3.0) * (separation ? 2 : 1) * 1.33 + (blurring ? 4 / 3.0 : 0),
-                       taps / 3 * (20 + (blurring ? 4 : 0) + (separation ? 16 : 0))),
-                   blurring ? BRUME_OK : drop("density blurring", "switched off"),
-                   f.masking ? BRUME_OK : drop("masking", "switched off"),
-                   separation ? BRUME_OK : drop("separation", "switched off (the default)")});
-        if (s)
-            return s;
-        double fetches = f.fetch == brume::maths_float::fetch_linear_bilinear  ? 2
-                         : f.fetch == brume::maths_float::fetch_linear_bicubic ? 8
-                                                                               : 16;
-        s = run("compose", "fetches each pixel's level and adds what arrives straight",
-                16 + 4 + 16 + 16 * 1.33 + (blurring ? 4 : 0) + (separation ? 16 * 1.33 : 0),
-                120 + fetches * (30 + (blurring ? 10 : 0) + (separation ? 30 : 0)));
-        if (s)
-            return s;
-    }
-    if (state.top == 0) {
-        s = run("compose", "attenuates; scattered light stays in its pixel", 16 + 4 + 16, 130);
-        if (s)
-            return s;
-    }
-    if (request_.backend == BRUME_BACKEND_GL)
-        s = compile_programs(services_, host_, request_.outputs, state);
-    return s;
+    int stack_w = level_size({state.width, state.height}, 1).x;
+    int stack_h = stack_height(state.width, state.height, state.top);
+    double taps = state.parameters.taps * state.parameters.taps;
+    bool blurring = f.density_blurring != 0, separation = f.separation != 0;
+    double fetches = f.fetch == brume::maths_float::fetch_linear_bilinear  ? 2
+                     : f.fetch == brume::maths_float::fetch_linear_bicubic ? 8
+                                                                           : 16;
+    return check({image("radiance", state.width, state.height, 4, state.radiance),
+                  image("radiance levels", stack_w, stack_h, 4, state.radiance_stack),
+                  blurring ? image("spread levels", stack_w, stack_h, 1, state.spread_stack) : BRUME_OK,
+                  separation ? image("separated", state.width, state.height, 4, state.separated) : BRUME_OK,
+                  separation ? image("separated levels", stack_w, stack_h, 4, state.separated_stack) : BRUME_OK,
+                  run("scatter", "splits radiance into what arrives straight and what was scattered",
+                      16 + 4 + 16 + (separation ? 16 : 0), 120),
+                  run("downsample",
+                      "levels 1 to " + std::to_string(state.top) + " of the pyramid; each frame stops at that of its largest blur",
+                      (16 + 16 / 3.0) * (separation ? 2 : 1) * 1.33 + (blurring ? 4 / 3.0 : 0),
+                      taps / 3 * (20 + (blurring ? 4 : 0) + (separation ? 16 : 0))),
+                  blurring ? BRUME_OK : drop("density blurring", "switched off"),
+                  f.masking ? BRUME_OK : drop("masking", "switched off"),
+                  separation ? BRUME_OK : drop("separation", "switched off (the default)"),
+                  run("compose", "fetches each pixel's level and adds what arrives straight",
+                      16 + 4 + 16 + 16 * 1.33 + (blurring ? 4 : 0) + (separation ? 16 * 1.33 : 0),
+                      120 + fetches * (30 + (blurring ? 10 : 0) + (separation ? 30 : 0)))});
 }
 
 brume_status Planner::plan(std::unique_ptr<State> &out)
@@ -163,7 +160,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         if (request_.backend != BRUME_BACKEND_CPU)
             return services_.fail(
                 host_, BRUME_ERROR_UNSUPPORTED,
-                "kernel: reference; expected paper on the GL backend (the reference is exact, in double, on the CPU)");
+                "kernel: reference; expected calibrated or paper on the GL backend (the reference is exact, in double, on the CPU)");
         s = run("reference", "exact splatting in double", 52, 1e5);
     } else if (!scatters) {
         s = drop("pyramid", "the medium does not scatter: nothing to blur");
@@ -172,7 +169,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         if (!s && request_.backend == BRUME_BACKEND_GL)
             s = compile_programs(services_, host_, request_.outputs, *state);
     } else {
-        s = plan_paper(*state);
+        s = plan_pyramid(*state);
     }
     if (!s)
         out = std::move(state);
@@ -189,7 +186,9 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 
 brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
 {
-    const State &state = *static_cast<const State *>(opaque);
+    State &state = *static_cast<State *>(opaque);
+    if (state.table)
+        return execute_calibrated(*services, host, state, *frame);
     if (state.parameters.kernel == Kernel::reference)
         return execute_reference(*services, host, state, *frame);
     return state.compose ? execute_gl(*services, host, state, *frame) : execute_cpu(*services, host, state, *frame);

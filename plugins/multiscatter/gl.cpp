@@ -3,27 +3,14 @@
 #include <string_view>
 #include <vector>
 
-#include "state.h"
+#include "calibrated.h"
+#include "common/uniforms.hpp"
 
 namespace multiscatter {
 
-std::string_view pass_text(std::string_view name);
-
-namespace {
-
 using namespace brume::maths_float;
+using namespace brume_uniforms;
 
-brume_plugin_uniform integer(const char *name, const int32_t &value)
-{
-    return {name, BRUME_UNIFORM_INT, 1, 1, 0, &value};
-}
-
-brume_plugin_uniform real(const char *name, const float &value)
-{
-    return {name, BRUME_UNIFORM_FLOAT, 1, 1, 0, &value};
-}
-
-// `uniform Filter multiscatter`, member by member.
 std::vector<brume_plugin_uniform> filter_uniforms(const Filter &f)
 {
     return {integer("multiscatter.top", f.top),
@@ -33,14 +20,16 @@ std::vector<brume_plugin_uniform> filter_uniforms(const Filter &f)
             integer("multiscatter.separation", f.separation),
             integer("multiscatter.placement", f.placement),
             integer("multiscatter.lights", f.lights),
-            real("multiscatter.scale", f.scale),
-            real("multiscatter.mask_width", f.mask_width),
-            real("multiscatter.bright", f.bright),
-            real("multiscatter.bright_width", f.bright_width),
-            real("multiscatter.dense", f.dense),
-            real("multiscatter.dense_width", f.dense_width),
-            real("multiscatter.separation_level", f.separation_level)};
+            number("multiscatter.scale", f.scale),
+            number("multiscatter.mask_width", f.mask_width),
+            number("multiscatter.bright", f.bright),
+            number("multiscatter.bright_width", f.bright_width),
+            number("multiscatter.dense", f.dense),
+            number("multiscatter.dense_width", f.dense_width),
+            number("multiscatter.separation_level", f.separation_level)};
 }
+
+namespace {
 
 class Frame {
 public:
@@ -144,7 +133,10 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
     auto define = [](const char *name, uint32_t value) {
         return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
     };
-    if (state.top > 0) {
+    if (state.table) {
+        if (brume_status s = compile_calibrated(services, host, state))
+            return s;
+    } else if (state.top > 0) {
         if (brume_status s = compile("multiscatter_scatter.comp", "", state.scatter))
             return s;
         if (brume_status s =
@@ -154,7 +146,7 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
                         state.downsample))
             return s;
     }
-    return compile("multiscatter_compose.comp", define("PYRAMID", state.top > 0) + define("OUTPUTS", outputs & own_outputs),
+    return compile("multiscatter_compose.comp", define("PYRAMID", state.top == 0 ? 0 : state.table ? 2 : 1) + define("OUTPUTS", outputs & own_outputs),
                    state.compose);
 }
 

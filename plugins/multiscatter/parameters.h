@@ -7,7 +7,7 @@
 
 namespace multiscatter {
 
-enum class Kernel { paper, reference };
+enum class Kernel { paper, reference, calibrated };
 
 // The effect's parameters as its passes read them. Defaults are the paper's.
 struct Parameters {

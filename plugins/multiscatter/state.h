@@ -1,10 +1,12 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include <brume/brume_plugin.h>
 
 #include "parameters.h"
 #include "scene_maths.hpp"
+#include "spread.h"
 
 namespace multiscatter {
 
@@ -23,7 +25,20 @@ struct State {
     brume_plugin_image separated = nullptr;     // RGB: L_ssc, A: W
     brume_plugin_image separated_stack = nullptr;
 
+    // Kernel `calibrated` (shaders/lib/calibrated.glsl), beside radiance and radiance_stack.
+    int coverage_channels = 0;
+    brume_plugin_image coverage = nullptr;
+    brume_plugin_image coverage_stack = nullptr;
+    brume_plugin_image smooth_radiance = nullptr;  // levels 1 to K, smoothed
+    brume_plugin_image smooth_coverage = nullptr;
+    brume_plugin_image ambient_stack = nullptr;  // the surroundings, levels 1 to K
+    brume_plugin_image table = nullptr;
+    SpreadSource tabled;  // what `table` was made of
+
     // GL programs; NULL on the CPU.
+    brume_program spread = nullptr;
+    brume_program share = nullptr;
+    brume_program smooth = nullptr;
     brume_program scatter = nullptr;
     brume_program downsample = nullptr;
     brume_program compose = nullptr;
@@ -36,6 +51,11 @@ brume_status execute_gl(const brume_services &services, brume_host host, const S
                         const brume_plugin_frame &frame);
 brume_status execute_reference(const brume_services &services, brume_host host, const State &state,
                                const brume_plugin_frame &frame);
+
+// Kernel `calibrated`.
+brume_status plan_calibrated(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state);
+brume_status execute_calibrated(const brume_services &services, brume_host host, State &state, const brume_plugin_frame &frame);
+brume_status compile_calibrated(const brume_services &services, brume_host host, State &state);
 
 brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state);
 

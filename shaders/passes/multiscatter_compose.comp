@@ -1,4 +1,4 @@
-// PYRAMID and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
+// PYRAMID (0 none, 1 kernel paper, 2 kernel calibrated) and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "data.glsl"
@@ -8,10 +8,19 @@
 #include "pyramid.glsl"
 #include "fetch.glsl"
 #include "multiscatter.glsl"
+#include "calibrated.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
 uniform Filter multiscatter;
+#if PYRAMID == 2
+uniform Calibrated calibrated;
+uniform int ambient_row;
+uniform sampler2D lights;
+uniform sampler2D table;
+uniform sampler2D coverage_stack;
+uniform sampler2D ambient_stack;
+#endif
 uniform float brume_output_limit;
 uniform int outputs;  // those of this frame
 uniform sampler2D color;
@@ -40,7 +49,13 @@ void main()
     Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, centre, texelFetch(depth, p, 0).r,
                                   texelFetch(gaussian_density, p, 0).rg);
     vec3 added = pixel.emitted;
-#if PYRAMID
+#if PYRAMID == 2
+    vec3 shown = shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r,
+                             pixel.density);
+    added += collected(brume_medium, calibrated, table, radiance_stack, coverage_stack,
+                       ambient_radiance(texelFetch(ambient_stack, ivec2(0, ambient_row), 0)),
+                       Pyramid(brume_grid, calibrated.top), centre, pixel.density, pixel.share, source.rgb, shown);
+#elif PYRAMID == 1
     added += gathered(radiance, radiance_stack, spread_stack, separated, separated_stack,
                       Pyramid(brume_grid, multiscatter.top), multiscatter, centre, pixel.spread);
 #else

@@ -94,6 +94,28 @@ Measured measure(brume_context context, Frame &frame, const std::string &paramet
     return m;
 }
 
+struct Variant {
+    std::string kernel, fetch;
+    bool separation;
+    std::string parameters;
+    bool is_default;  // of its kernel
+};
+
+std::vector<Variant> variants()
+{
+    std::vector<Variant> all{{"calibrated", "", false, "\"kernel\":\"calibrated\"", true}};
+    for (const std::string size : {"2x2", "4x4", "6x6"})
+        for (const std::string fetch : {"linear_bilinear", "linear_bicubic", "cubic_bicubic"})
+            for (bool separation : {false, true})
+                // The paper separates with the bicubic fetch only.
+                if (!separation || fetch == "linear_bicubic")
+                    all.push_back({size, fetch, separation,
+                                   "\"kernel\":\"paper\",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch +
+                                       "\",\"separation\":" + (separation ? "true" : "false"),
+                                   size == "4x4" && fetch == "linear_bicubic"});
+    return all;
+}
+
 }  // namespace
 
 int main(int argc, char **argv)
@@ -125,44 +147,39 @@ int main(int argc, char **argv)
             if (quick && width > 1920)
                 continue;
             Frame frame = make_frame(width, height);
-            for (const char *kernel : {"2x2", "4x4", "6x6"})
-                for (const char *fetch : {"linear_bilinear", "linear_bicubic", "cubic_bicubic"})
-                    for (bool separation : {false, true}) {
-                        bool paper_default = std::string(kernel) == "4x4" && std::string(fetch) == "linear_bicubic";
-                        // The paper separates with the bicubic fetch only; slow devices do 4K for the default alone.
-                        if ((separation && std::string(fetch) != "linear_bicubic") ||
-                            ((quick || (slow && width > 1920)) && !paper_default))
-                            continue;
-                        std::string parameters = std::string("\"kernel_size\":\"") + kernel + "\",\"fetch\":\"" + fetch +
-                                                 "\",\"separation\":" + (separation ? "true" : "false");
-                        Measured m = measure(device.context, frame, parameters, slow ? 5 : 25);
-                        nlohmann::json passes;
-                        std::string listed;
-                        for (auto &[pass, ms] : m.per_pass) {
-                            passes[pass] = ms;
-                            char text[80];
-                            snprintf(text, sizeof text, "%s%s %.3g", listed.empty() ? "" : ", ", pass.c_str(), ms);
-                            listed += text;
-                        }
-                        report.push_back({{"backend", name},
-                                          {"width", width},
-                                          {"height", height},
-                                          {"kernel", kernel},
-                                          {"fetch", fetch},
-                                          {"separation", separation},
-                                          {"ms", m.passes_ms},
-                                          {"copy_ms", m.copy_ms},
-                                          {"ratio_to_copy", m.passes_ms / m.copy_ms},
-                                          {"least_bytes", m.bytes},
-                                          {"passes_ms", passes}});
-                        char line[400];
-                        snprintf(line, sizeof line, "| %s | %d x %d | %s | %s | %s | %.4g | %.1f | %.0f | %.2f | %s |\n",
-                                 name.c_str(), width, height, kernel, fetch, separation ? "yes" : "", m.passes_ms,
-                                 m.passes_ms / m.copy_ms, m.bytes / 1e6, m.bytes / m.passes_ms / 1e6, listed.c_str());
-                        table << line << std::flush;
-                        printf("%s", line);
-                        fflush(stdout);
-                    }
+            for (const Variant &v : variants()) {
+                // Slow devices do 4K for the defaults alone.
+                if ((quick || (slow && width > 1920)) && !v.is_default)
+                    continue;
+                const auto &[kernel, fetch, separation, parameters, is_default] = v;
+                Measured m = measure(device.context, frame, parameters, slow ? 5 : 25);
+                nlohmann::json passes;
+                std::string listed;
+                for (auto &[pass, ms] : m.per_pass) {
+                    passes[pass] = ms;
+                    char text[80];
+                    snprintf(text, sizeof text, "%s%s %.3g", listed.empty() ? "" : ", ", pass.c_str(), ms);
+                    listed += text;
+                }
+                report.push_back({{"backend", name},
+                                  {"width", width},
+                                  {"height", height},
+                                  {"kernel", kernel},
+                                  {"fetch", fetch},
+                                  {"separation", separation},
+                                  {"ms", m.passes_ms},
+                                  {"copy_ms", m.copy_ms},
+                                  {"ratio_to_copy", m.passes_ms / m.copy_ms},
+                                  {"least_bytes", m.bytes},
+                                  {"passes_ms", passes}});
+                char line[400];
+                snprintf(line, sizeof line, "| %s | %d x %d | %s | %s | %s | %.4g | %.1f | %.0f | %.2f | %s |\n",
+                         name.c_str(), width, height, kernel.c_str(), fetch.c_str(), separation ? "yes" : "", m.passes_ms,
+                         m.passes_ms / m.copy_ms, m.bytes / 1e6, m.bytes / m.passes_ms / 1e6, listed.c_str());
+                table << line << std::flush;
+                printf("%s", line);
+                fflush(stdout);
+            }
         }
     }
     std::ofstream(argv[argc - 2]) << report.dump(1) << "\n";

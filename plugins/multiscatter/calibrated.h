@@ -1,0 +1,37 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "state.h"
+
+namespace multiscatter {
+
+// The passes of kernel `calibrated` on one backend, in their order.
+class CalibratedPasses {
+public:
+    virtual ~CalibratedPasses() = default;
+    virtual brume_status spread() = 0;          // level 0
+    virtual brume_status share(int level) = 0;  // from the finer one
+    virtual brume_status smooth(int level) = 0;
+    virtual brume_status compose() = 0;
+};
+
+std::unique_ptr<CalibratedPasses> calibrated_on_cpu(const brume_services &services, brume_host host, const State &state,
+                                                    const brume_plugin_frame &frame, brume_status &status);
+std::unique_ptr<CalibratedPasses> calibrated_on_gl(const brume_services &services, brume_host host, const State &state,
+                                                   const brume_plugin_frame &frame);
+
+brume::maths_float::Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene);
+
+// Where a level and the one finer than it lie in their images.
+struct LevelRows {
+    brume::maths_float::ivec2 size, finer_size;
+    int finer_row, row;
+};
+LevelRows level_rows(const State &state, int level);
+
+// `uniform Filter multiscatter`, member by member.
+std::vector<brume_plugin_uniform> filter_uniforms(const brume::maths_float::Filter &f);
+std::string_view pass_text(std::string_view name);
+
+}  // namespace multiscatter

@@ -1,0 +1,130 @@
+// Kernel `calibrated` on GL: shaders/passes/multiscatter_{spread,share,smooth,compose}.comp.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calibrated.h"
+#include "common/uniforms.hpp"
+
+namespace multiscatter {
+namespace {
+
+using namespace brume::maths_float;
+using namespace brume_uniforms;
+
+class GlPasses : public CalibratedPasses {
+public:
+    GlPasses(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
+        : services_(services), host_(host), state_(state), frame_(frame), filter_(filter_of(state, *frame.scene)),
+          calibrated_(calibrated_of(state, *frame.scene))
+    {
+    }
+
+    brume_status spread() override
+    {
+        return run("scatter", state_.spread,
+                   {{"color", frame_.color, BRUME_ACCESS_FETCH, 0},
+                    {"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
+                    {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
+                    {"lights", frame_.lights, BRUME_ACCESS_FETCH, 0},
+                    {"table", state_.table, BRUME_ACCESS_FETCH, 0},
+                    {"radiance", state_.radiance, BRUME_ACCESS_WRITE, 0},
+                    {"coverage", state_.coverage, BRUME_ACCESS_WRITE, 0}},
+                   {}, ivec2(state_.width, state_.height));
+    }
+
+    brume_status share(int level) override
+    {
+        const LevelRows r = level_rows(state_, level);
+        const int32_t rows[2] = {r.finer_row, r.row};
+        return run("downsample", state_.share,
+                   {{"finer_radiance", level == 1 ? state_.radiance : state_.radiance_stack, BRUME_ACCESS_FETCH, 0},
+                    {"finer_coverage", level == 1 ? state_.coverage : state_.coverage_stack, BRUME_ACCESS_FETCH, 0},
+                    {"finer_ambient", state_.ambient_stack, BRUME_ACCESS_FETCH, 0},
+                    {"table", state_.table, BRUME_ACCESS_FETCH, 0},
+                    {"radiance", state_.radiance_stack, BRUME_ACCESS_WRITE, 0},
+                    {"coverage", state_.coverage_stack, BRUME_ACCESS_WRITE, 0},
+                    {"ambient", state_.ambient_stack, BRUME_ACCESS_WRITE, 0}},
+                   {integer("level", level),
+                    {"finer_size", BRUME_UNIFORM_INT, 2, 1, 0, &r.finer_size},
+                    {"rows", BRUME_UNIFORM_INT, 2, 1, 0, rows}},
+                   r.size);
+    }
+
+    brume_status smooth(int level) override
+    {
+        const LevelRows r = level_rows(state_, level);
+        return run("smooth", state_.smooth,
+                   {{"radiance_stack", state_.radiance_stack, BRUME_ACCESS_FETCH, 0},
+                    {"coverage_stack", state_.coverage_stack, BRUME_ACCESS_FETCH, 0},
+                    {"table", state_.table, BRUME_ACCESS_FETCH, 0},
+                    {"radiance", state_.smooth_radiance, BRUME_ACCESS_WRITE, 0},
+                    {"coverage", state_.smooth_coverage, BRUME_ACCESS_WRITE, 0}},
+                   {integer("level", level), integer("row", r.row)}, r.size);
+    }
+
+    brume_status compose() override
+    {
+        const int32_t outputs = int32_t(frame_.outputs), row = level_rows(state_, state_.top).row;
+        return run("compose", state_.compose,
+                   {{"color", frame_.color, BRUME_ACCESS_FETCH, 0},
+                    {"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
+                    {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
+                    {"lights", frame_.lights, BRUME_ACCESS_FETCH, 0},
+                    {"table", state_.table, BRUME_ACCESS_FETCH, 0},
+                    {"radiance_stack", state_.smooth_radiance, BRUME_ACCESS_LINEAR, 0},
+                    {"coverage_stack", state_.smooth_coverage, BRUME_ACCESS_LINEAR, 0},
+                    {"ambient_stack", state_.ambient_stack, BRUME_ACCESS_FETCH, 0},
+                    {"result", frame_.output, BRUME_ACCESS_WRITE, 0},
+                    {"transmittance_out", frame_.transmittance, BRUME_ACCESS_WRITE, 0},
+                    {"optical_depth_out", frame_.optical_depth, BRUME_ACCESS_WRITE, 0},
+                    {"scattered_out", frame_.scattered, BRUME_ACCESS_WRITE, 0},
+                    {"blur_radius_out", frame_.blur_radius, BRUME_ACCESS_WRITE, 0}},
+                   {integer("outputs", outputs), integer("ambient_row", row)}, ivec2(state_.width, state_.height));
+    }
+
+private:
+    brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
+                     std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
+    {
+        std::erase_if(bindings, [](const brume_plugin_binding &b) { return !b.image; });
+        const auto filter = filter_uniforms(filter_);
+        uniforms.insert(uniforms.end(), filter.begin(), filter.end());
+        uniforms.insert(uniforms.end(), {integer("calibrated.top", calibrated_.top),
+                                         integer("calibrated.coverage", calibrated_.coverage),
+                                         integer("calibrated.lights", calibrated_.lights),
+                                         number("calibrated.first_place", calibrated_.first_place),
+                                         {"calibrated.detour", BRUME_UNIFORM_FLOAT, 3, 1, 0, &calibrated_.detour}});
+        brume_plugin_pass pass{sizeof pass,     uint32_t(bindings.size()), name,   program, bindings.data(),
+                               uniforms.data(), uint32_t(uniforms.size()), grid.x, grid.y,  0};
+        return services_.run(host_, &pass);
+    }
+
+    const brume_services &services_;
+    brume_host host_;
+    const State &state_;
+    const brume_plugin_frame &frame_;
+    Filter filter_;
+    Calibrated calibrated_;
+};
+
+}  // namespace
+
+std::unique_ptr<CalibratedPasses> calibrated_on_gl(const brume_services &services, brume_host host, const State &state,
+                                                   const brume_plugin_frame &frame)
+{
+    return std::make_unique<GlPasses>(services, host, state, frame);
+}
+
+brume_status compile_calibrated(const brume_services &services, brume_host host, State &state)
+{
+    const std::pair<const char *, brume_program *> programs[] = {{"multiscatter_spread.comp", &state.spread},
+                                                                 {"multiscatter_share.comp", &state.share},
+                                                                 {"multiscatter_smooth.comp", &state.smooth}};
+    for (auto &[name, program] : programs)
+        if (brume_status s = services.compile(host, name, std::string(pass_text(name)).c_str(), "", program))
+            return s;
+    return BRUME_OK;
+}
+
+}  // namespace multiscatter

@@ -1,0 +1,232 @@
+// The hierarchical filter, kernel `calibrated`: how far light spreads is decided by the pixel that it comes from.
+//
+// Of a pixel's light, arrived_share() reaches the camera scattered. A table made from Monte Carlo says how much of that
+// appears at which angle from the pixel, octave by octave: the share of level k stays there on the way down the pyramid, the
+// rest goes on to the coarser levels. A pixel then collects what all levels have at its place, as far as it was scattered in
+// front of what the pixel shows. What the medium scatters toward it from where the image has nothing comes from `ambient`.
+// The same sums over the shares alone (`coverage`) tell how much that is, so that a uniform image stays as it is (the white
+// furnace). Needs radiance.glsl, pyramid.glsl, data.glsl.
+
+struct Calibrated {
+    int top;             // K, the coarsest level
+    int coverage;        // channels that coverage has: 1 in grey media
+    int lights;          // those whose single scattering another effect adds
+    float first_place;   // log2 of P at place 0 of the table
+    vec3 detour;         // y / P^1.2 of arrived()
+};
+
+// The table: per level spread_places values of the share that stays there to what goes on (level 0: that stays to all; the
+// coarsest: 1), over P in steps of half an octave; then visible_places values of visible_share(), over the ratio of P to the
+// receiver to P to the source, 0 to 1.
+const int spread_places = 32;
+const int visible_places = 17;
+const int spread_row = 49;
+
+// Light stays at every second level, counted from the coarsest: deviations a factor of 4 apart add up to the cusp and the
+// tails of what single Gaussians cannot follow, and cost half as much as all levels.
+PURE bool collects(IN(Calibrated) f, int level)
+{
+    return ((f.top - level) & 1) == 0;
+}
+
+// Luminances of light that is as good as none and as good as infinite.
+const float least_light = R(1e-20);
+const float most_light = R(1e30);
+
+PURE float table_value(sampler2D table, int first, int count, float place)
+{
+    int i = clamp(int(place), 0, count - 2);
+    float f = clamp(place - float(i), R(0.0), R(1.0));
+    return mix(data_texel(table, first + i).x, data_texel(table, first + i + 1).x, f);
+}
+
+PURE float staying(sampler2D table, int level, float place)
+{
+    return table_value(table, level * spread_row, spread_places, place);
+}
+
+PURE float visible_share(sampler2D table, int level, float ratio)
+{
+    return table_value(table, level * spread_row + spread_places, visible_places, ratio * float(visible_places - 1));
+}
+
+// P as a place in the table. octaves: log2 of P.
+PURE float spread_place(IN(Calibrated) f, float octaves)
+{
+    return clamp(R(2.0) * (octaves - f.first_place), R(0.0), float(spread_places - 1));
+}
+
+PURE float octaves_of(float p)
+{
+    return log2(max(p, R(1e-30)));
+}
+
+// The share of a source's light that reaches the camera scattered: T_tot - e^-tau, where T_tot = 1 / (1 + y),
+// y = .45 ((1 - g) tau)^1.2, by Monte Carlo, tau that of scattering. share: scattered_share(), which is 1 - e^-tau.
+PURE vec3 arrived_share(IN(Medium) medium, IN(Calibrated) f, float p, float octaves, vec3 share)
+{
+    vec3 y = min(f.detour * exp2(R(1.2) * octaves), vec3(R(1e30)));
+    vec3 lost = y / (R(1.0) + y);
+    if (medium.absorption != vec3(R(0.0)))
+        lost *= exp(-medium.absorption * p);
+    // Never quite nothing: where no light arrives, what the image shows there still counts as surroundings.
+    return max(share - lost, R(1e-4) * share);
+}
+
+// What a pixel or texel passes on to coarser levels. Of sources at different P it is the mean of 1 / P that counts, so that the
+// near ones decide: what is behind them is lit by all.
+struct Spreading {
+    vec4 radiance;  // RGB, and its luminance times 2^(-place / 2), which is 1 / P in the table's units
+    vec3 coverage;  // the shares by which the radiance was multiplied
+};
+
+PURE float spreading_luminance(IN(Medium) medium, vec3 radiance)
+{
+    return clamp(luminance(medium.luminance, radiance), least_light, most_light);
+}
+
+PURE Spreading passed_on(IN(Medium) medium, vec3 radiance, vec3 coverage, float nearness, float share)
+{
+    vec3 rest = share * radiance;
+    return Spreading(vec4(rest, spreading_luminance(medium, rest) * nearness), share * coverage);
+}
+
+// The mean of 2^(-place / 2).
+PURE float nearness_of(IN(Medium) medium, vec4 radiance)
+{
+    return clamp(radiance.w / spreading_luminance(medium, vec3(radiance)), R(2e-5), R(1.0));
+}
+
+// Level 0. shown: what of the light is not another effect's.
+PURE Spreading spreading_source(IN(Medium) medium, IN(Calibrated) f, sampler2D table, float p, vec3 scattered, vec3 color,
+                                vec3 shown)
+{
+    float octaves = octaves_of(p);
+    vec3 share = arrived_share(medium, f, p, octaves, scattered);
+    float place = spread_place(f, octaves);
+    return passed_on(medium, share * shown * finite_or_zero(color), share, exp2(-R(0.5) * place),
+                     R(1.0) - staying(table, 0, place));
+}
+
+// The share of a source's scattered light that is no other effect's: of listed lights the first scattering is.
+PURE vec3 shown_share(sampler2D lights, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth, float p)
+{
+    if (count == 0 || !shows_light(lights, count, camera, pixel_ray(camera, pixel, raw_depth)))
+        return vec3(R(1.0));
+    return rescattered_share(medium, p) / max(scattered_share(medium, p), vec3(R(1e-30)));
+}
+
+// One texel of level `level` from the finer level, whose first row in its images is finer_row.
+PURE Spreading spreading_texel(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D finer, sampler2D finer_coverage,
+                               ivec2 finer_size, int finer_row, ivec2 texel, int level)
+{
+    vec4 sum = vec4(R(0.0));
+    vec4 coverage = vec4(R(0.0));
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i) {
+            ivec2 from = finer_texel(texel, 4, i, j, finer_size, finer_row);
+            float weight = kernel_weight(4, i) * kernel_weight(4, j);
+            sum += weight * texelFetch(finer, from, 0);
+            coverage += weight * texelFetch(finer_coverage, from, 0);
+        }
+    float nearness = nearness_of(medium, sum);
+    float share = level == f.top || !collects(f, level) ? R(1.0)
+                                                        : R(1.0) / (R(1.0) + staying(table, level, -R(2.0) * log2(nearness)));
+    vec3 shares = f.coverage == 1 ? vec3(coverage.x) : vec3(coverage);
+    return passed_on(medium, vec3(sum), shares, nearness, share);
+}
+
+// Fourth roots: a lamp counts for little in what the surroundings are taken to be, whose light it adds to by itself. W counts.
+PURE vec4 ambient_source(vec3 radiance, vec3 coverage)
+{
+    if (coverage.x + coverage.y + coverage.z <= R(1e-30))
+        return vec4(R(0.0));
+    vec3 mean = max(radiance / max(coverage, vec3(R(1e-35))), vec3(R(0.0)));
+    return vec4(sqrt(sqrt(min(mean, vec3(most_light)))), R(1.0));
+}
+
+// From level 0 for level 1, from the surroundings of the finer level for others.
+PURE vec4 ambient_texel(IN(Calibrated) f, sampler2D finer, sampler2D finer_coverage, sampler2D finer_ambient, ivec2 finer_size,
+                        int finer_row, ivec2 texel, int level)
+{
+    vec4 sum = vec4(R(0.0));
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+            ivec2 from = finer_texel(texel, 2, i, j, finer_size, finer_row);
+            if (level > 1) {
+                sum += R(0.25) * texelFetch(finer_ambient, from, 0);
+            } else {
+                vec4 coverage = texelFetch(finer_coverage, from, 0);
+                sum += R(0.25) * ambient_source(vec3(texelFetch(finer, from, 0)),
+                                                f.coverage == 1 ? vec3(coverage.x) : vec3(coverage));
+            }
+        }
+    return sum;
+}
+
+PURE vec3 ambient_radiance(vec4 sum)
+{
+    vec3 root = vec3(sum) / max(sum.w, R(1e-30));
+    return root * root * root * root;
+}
+
+// Beyond an edge the level is mirrored, which loses no light.
+PURE int mirrored(int i, int size)
+{
+    return clamp(i < 0 ? -1 - i : i >= size ? 2 * size - 1 - i : i, 0, size - 1);
+}
+
+// (1 4 6 4 1) / 16 for i from -2 to 2.
+PURE float binomial_weight(int i)
+{
+    return i == 0 ? R(0.375) : abs(i) == 1 ? R(0.25) : R(0.0625);
+}
+
+// What stays at a texel, from what it passes on, smoothed by a 5 x 5 binomial: round, and its bilinear interpolation shows no
+// creases.
+PURE Spreading stayed(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack, ivec2 size,
+                      int row, ivec2 texel, int level)
+{
+    vec4 sum = vec4(R(0.0));
+    vec4 coverage = vec4(R(0.0));
+    for (int j = -2; j <= 2; ++j)
+        for (int i = -2; i <= 2; ++i) {
+            ivec2 t = ivec2(mirrored(texel.x + i, size.x), mirrored(texel.y + j, size.y));
+            float weight = binomial_weight(i) * binomial_weight(j);
+            sum += weight * texelFetch(stack, ivec2(t.x, t.y + row), 0);
+            coverage += weight * texelFetch(coverage_stack, ivec2(t.x, t.y + row), 0);
+        }
+    float nearness = nearness_of(medium, sum);
+    float share = level == f.top ? R(1.0) : staying(table, level, -R(2.0) * log2(nearness));
+    return passed_on(medium, vec3(sum), f.coverage == 1 ? vec3(coverage.x) : vec3(coverage), nearness, share);
+}
+
+PURE vec3 coverage_at(sampler2D stack, IN(Calibrated) f, IN(Region) region, vec2 position)
+{
+    if (f.coverage == 1)
+        return vec3(fetch_linear_channel(stack, region, position, 0));
+    return vec3(fetch_linear(stack, region, position));
+}
+
+// All that the medium scatters toward the camera in front of what a pixel shows. share: its scattered_share().
+PURE vec3 collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack, vec3 ambient,
+                    IN(Pyramid) pyramid, vec2 pixel, float p, vec3 share, vec3 color, vec3 shown)
+{
+    float octaves = octaves_of(p);
+    float place = spread_place(f, octaves);
+    float reach = exp2(R(0.5) * place);
+    vec3 coverage = staying(table, 0, place) * arrived_share(medium, f, p, octaves, share);
+    vec3 sum = coverage * shown * finite_or_zero(color);
+    for (int k = f.top; k > 0; k -= 2) {
+        Region region = level_region(pyramid, k);
+        vec2 position = level_position(pixel, k);
+        vec4 v = fetch_linear(stack, region, position);
+        vec3 covered = coverage_at(coverage_stack, f, region, position);
+        float ratio = reach * nearness_of(medium, v);
+        float visible = ratio < R(1.0) ? visible_share(table, k, ratio) : R(1.0);
+        sum += visible * vec3(v);
+        coverage += visible * covered;
+    }
+    vec3 kept = min(share / max(coverage, vec3(R(1e-35))), vec3(R(1.0)));
+    return kept * sum + max(share - coverage, vec3(R(0.0))) * ambient;
+}

@@ -1,0 +1,38 @@
+#include "scene.glsl"
+#include "ray.glsl"
+#include "data.glsl"
+#include "density.glsl"
+#include "radiance.glsl"
+#include "spread.glsl"
+#include "pyramid.glsl"
+#include "fetch.glsl"
+#include "multiscatter.glsl"
+#include "calibrated.glsl"
+
+uniform Medium brume_medium;
+uniform Camera brume_camera;
+uniform Filter multiscatter;
+uniform Calibrated calibrated;
+uniform sampler2D color;
+uniform sampler2D depth;
+uniform sampler2D gaussian_density;
+uniform sampler2D lights;
+uniform sampler2D table;
+writeonly uniform image2D radiance;
+writeonly uniform image2D coverage;
+
+void main()
+{
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (p.x >= brume_grid.x || p.y >= brume_grid.y)
+        return;
+    vec2 centre = vec2(p) + 0.5;
+    float raw_depth = texelFetch(depth, p, 0).r;
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, centre, raw_depth,
+                                  texelFetch(gaussian_density, p, 0).rg);
+    Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share, texelFetch(color, p, 0).rgb,
+                                   shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, raw_depth,
+                                               pixel.density));
+    imageStore(radiance, p, s.radiance);
+    imageStore(coverage, p, vec4(s.coverage, 1.0));
+}

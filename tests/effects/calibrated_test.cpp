@@ -1,0 +1,184 @@
+// Properties of kernel `calibrated` that cannot be tuned to.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "lit_scene.h"
+
+using namespace fog;
+
+namespace {
+
+const std::string kernel = "\"kernel\":\"calibrated\"";
+
+const char *clear_media[] = {"\"scattering\":0.02,\"g\":0.3", "\"scattering\":[0.05,0.02,0.01],\"g\":0.9",
+                             "\"scattering\":2,\"g\":-0.5",
+                             "\"scattering\":0.1,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":0.25,"
+                             "\"direction\":[0.1,1,0.2]}]"};
+const char *dark_media[] = {"\"scattering\":[0.02,0.03,0.05],\"absorption\":[0.01,0,0.002],\"g\":0.8",
+                            "\"scattering\":0.001,\"g\":-0.3,\"emission\":[0.01,0.02,0.03]"};
+
+Picture random_depth(int width, int height, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> u(0, 1);
+    Picture depth(width, height, 1);
+    for (float &d : depth.data)
+        d = u(random) < 0.2f ? INFINITY : 100 * u(random);
+    return depth;
+}
+
+Picture random_lights(int width, int height, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> u(0, 1);
+    Picture p(width, height, 4);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 4; ++c)
+                p.at(x, y)[c] = c < 3 && u(random) < 0.01f ? 200 * u(random) : 0.5f * u(random);
+    return p;
+}
+
+double scattered_sum(const Result &r)
+{
+    double sum = 0;
+    for (int y = 0; y < r.scattered.height; ++y)
+        for (int x = 0; x < r.scattered.width; ++x)
+            sum += r.scattered.at(x, y)[0];
+    return sum;
+}
+
+class Calibrated : public testing::TestWithParam<const char *> {
+protected:
+    brume_context context() { return backend(GetParam()); }
+};
+
+}  // namespace
+
+// In a medium that absorbs nothing a uniform image stays as it is, whatever lies where.
+TEST_P(Calibrated, WhiteFurnace)
+{
+    for (auto [w, h] : {std::pair(1, 1), {64, 48}, {37, 23}, {1, 200}, {130, 7}, {2, 2}})
+        for (const char *medium : clear_media) {
+            const Picture color(w, h, 4, 3.5f);
+            const Worst worst =
+                compare(run(context(), scene(medium, kernel), color, random_depth(w, h, 3)).output, color, 1e-3);
+            EXPECT_LT(worst.error, 1e-5) << w << "x" << h << " " << medium << " " << worst.describe();
+        }
+}
+
+// What arrives of a pixel's scattered light: T_tot - e^-tau, of which none is lost on the way over the pyramid.
+TEST_P(Calibrated, EnergyOfOnePixel)
+{
+    for (double tau : {0.01, 0.1, 1.0, 4.0}) {
+        const int w = 256, h = 256;
+        Picture color(w, h, 4, 0);
+        color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
+        const Result r = run(context(), scene("\"scattering\":" + std::to_string(tau / 20) + ",\"g\":0.9", kernel), color,
+                             Picture(w, h, 1, 20), {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
+        const double expected = 1000 * (1 / (1 + 0.45 * std::pow(0.1 * tau, 1.2)) - std::exp(-tau));
+        EXPECT_NEAR(scattered_sum(r) / expected, 1, 1e-3) << tau;
+    }
+}
+
+// Steps of a fifth of a pixel; what arrives does not flicker.
+TEST_P(Calibrated, AMovingLightKeepsItsEnergy)
+{
+    const int w = 160, h = 120;
+    double least = 1e30, most = 0;
+    for (int step = 0; step <= 20; ++step) {
+        const double x = 80 + 0.2 * step;
+        Picture color(w, h, 4, 0);
+        color.at(int(x), 61)[0] = float(1000 * (1 - (x - std::floor(x))));
+        color.at(int(x) + 1, 61)[0] = float(1000 * (x - std::floor(x)));
+        const double sum = scattered_sum(run(context(), scene("\"scattering\":0.05,\"g\":0.8", kernel), color,
+                                             Picture(w, h, 1, 20), {{}, BRUME_OUTPUT_SCATTERED, 0}));
+        least = std::min(least, sum);
+        most = std::max(most, sum);
+    }
+    EXPECT_LT(most / least, 1.01);
+}
+
+// The same scene at twice the resolution, averaged down.
+TEST_P(Calibrated, ResolutionInvariance)
+{
+    const int w = 240, h = 135;
+    Picture color(w, h, 4), depth(w, h, 1), color2(2 * w, 2 * h, 4), depth2(2 * w, 2 * h, 1);
+    for (int y = 0; y < 2 * h; ++y)
+        for (int x = 0; x < 2 * w; ++x) {
+            const bool lamp = (x / 16) % 6 == 2 && (y / 16) % 5 == 1;
+            for (int c = 0; c < 3; ++c)
+                color2.at(x, y)[c] = color.at(x / 2, y / 2)[c] =
+                    lamp ? 40.0f / float(c + 1) : 0.02f + 0.2f * float((x / 32 + y / 32) % 2);
+            depth2.at(x, y)[0] = depth.at(x / 2, y / 2)[0] = y < h ? 60.0f : 60.0f * float(h + 1) / float(y / 2 * 2 + 1);
+        }
+    const std::string s = scene("\"scattering\":0.03,\"g\":0.8", kernel);
+    const Picture one = run(context(), s, color, depth).output, two = run(context(), s, color2, depth2).output;
+    double mean = 0, difference = 0;
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double a = one.at(x, y)[c], b = 0.25 * (two.at(2 * x, 2 * y)[c] + two.at(2 * x + 1, 2 * y)[c] +
+                                                              two.at(2 * x, 2 * y + 1)[c] + two.at(2 * x + 1, 2 * y + 1)[c]);
+                mean += a;
+                difference += std::abs(a - b);
+            }
+    printf("1x against 2x: mean difference %.2f %% of the mean\n", 100 * difference / mean);
+    EXPECT_LT(difference / mean, 0.02);
+}
+
+// Light reaches a near surface's pixel only through the medium in front of it.
+TEST_P(Calibrated, FarLightsDoNotShineThroughNearSurfaces)
+{
+    const int w = 128, h = 96;
+    Picture color(w, h, 4, 0), depth(w, h, 1, 40);
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w / 2; ++x)
+            depth.at(x, y)[0] = 0.01f;
+    color.at(w / 2 + 3, h / 2)[0] = 1000;
+    const Picture scattered =
+        run(context(), scene("\"scattering\":0.03,\"g\":0.8", kernel), color, depth, {{}, BRUME_OUTPUT_SCATTERED, 0}).scattered;
+    EXPECT_GT(scattered.at(w / 2 + 8, h / 2)[0], 0.1);
+    EXPECT_LT(scattered.at(w / 2 - 2, h / 2)[0], 1e-3 * scattered.at(w / 2 + 8, h / 2)[0]);
+}
+
+// Nothing is made up where a component is not a number, and nothing of it reaches others.
+TEST_P(Calibrated, Extremes)
+{
+    const int w = 33, h = 21;
+    const float bad[] = {NAN, INFINITY, -INFINITY, -5, 1e10f, 65504, 3e38f, 1e-40f};
+    for (const char *medium : {clear_media[0], clear_media[1], clear_media[2], clear_media[3], dark_media[0], dark_media[1]})
+        for (size_t i = 0; i < std::size(bad); ++i) {
+            Picture color = random_lights(w, h, 9), depth = random_depth(w, h, 4);
+            color.at(16, 10)[1] = bad[i];
+            depth.at(3, 3)[0] = NAN;
+            depth.at(4, 3)[0] = -1;
+            depth.at(5, 3)[0] = 0;
+            depth.at(6, 3)[0] = 1e-40f;
+            depth.at(7, 3)[0] = 1e30f;
+            const Picture output = run(context(), scene(medium, kernel), color, depth).output;
+            for (int y = 0; y < h; ++y)
+                for (int x = 0; x < w; ++x)
+                    for (int c = 0; c < 3; ++c) {
+                        const bool itself = x == 16 && y == 10 && c == 1;
+                        ASSERT_TRUE(itself || std::isfinite(output.at(x, y)[c])) << medium << " " << bad[i] << " " << x << " " << y;
+                    }
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Calibrated, testing::Values("cpu", "gl"), [](auto &info) { return std::string(info.param); });
+
+TEST(GpuAgainstCpu, KernelCalibrated)
+{
+    double worst = 0;
+    for (auto [w, h] : {std::pair(160, 90), {61, 37}, {3, 5}})
+        for (const char *medium : {clear_media[0], clear_media[1], clear_media[2], clear_media[3], dark_media[0], dark_media[1]}) {
+            const Picture color = random_lights(w, h, 2), depth = random_depth(w, h, 5);
+            const Worst found = compare(run(backend("gl"), scene(medium, kernel), color, depth).output,
+                                        run(cpu(), scene(medium, kernel), color, depth).output, 0.05);
+            worst = std::max(worst, found.error);
+            EXPECT_LT(found.error, 2e-3) << w << "x" << h << " " << medium << " " << found.describe();
+        }
+    printf("kernel calibrated, GL against CPU: worst %.2g\n", worst);
+}
