@@ -57,7 +57,7 @@ Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene)
     for (int c = 0; c < 3; ++c)
         detour[c] = float(0.45 * std::pow((1 - double(m.asymmetry)) * m.scattering[c], 1.2));
     return {state.top, state.coverage_channels, state.beside_lights ? int(scene.light_count) : 0,
-            float(first_place(state.tabled)), detour};
+            float(first_place(state.tabled)), float(std::exp2(-first_place(state.tabled))), detour};
 }
 
 brume_status plan_calibrated(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state)
@@ -107,7 +107,7 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
         status = passes->spread();
     for (int level = 1; level <= state.top && !status; ++level)
         status = passes->share(level);
-    for (int level = state.top; level > 0 && !status; level -= 2)
+    for (int level = state.top; level > std::min(1, state.top - 1) && !status; level -= 2)
         status = passes->smooth(level);
     return status ? status : passes->compose();
 }

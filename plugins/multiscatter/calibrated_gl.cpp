@@ -94,6 +94,7 @@ private:
                                          integer("calibrated.coverage", calibrated_.coverage),
                                          integer("calibrated.lights", calibrated_.lights),
                                          number("calibrated.first_place", calibrated_.first_place),
+                                         number("calibrated.per_reach", calibrated_.per_reach),
                                          {"calibrated.detour", BRUME_UNIFORM_FLOAT, 3, 1, 0, &calibrated_.detour}});
         brume_plugin_pass pass{sizeof pass,     uint32_t(bindings.size()), name,   program, bindings.data(),
                                uniforms.data(), uint32_t(uniforms.size()), grid.x, grid.y,  0};

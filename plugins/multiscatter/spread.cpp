@@ -110,19 +110,21 @@ std::vector<float> spread_values(const SpreadSource &source)
     const double g = std::clamp(source.asymmetry, 0.0, table_asymmetries[std::size(table_asymmetries) - 1]);
     std::vector<float> values(size_t((source.top + 1) * spread_row));
     std::vector<double> share(size_t(source.top + 1));
-    const double finest = level_angle(source, source.top % 2 == 1 ? 1 : 2) / sqrt2;
+    // The next finer level at which light stays: every second one but level 1.
+    auto finer = [](int level) { return level > 3 ? level - 2 : level == 0 ? -1 : 0; };
+    const double finest = level_angle(source, source.top < 2 ? 1 : 2 + source.top % 2) / sqrt2;
     for (int place = 0; place < spread_places; ++place) {
         const double depth = first_depth * std::exp2(0.5 * place);
         double all = 0;
-        for (int k = source.top; k >= 0; k -= k > 1 ? 2 : 1) {
+        for (int k = source.top; k >= 0; k = finer(k)) {
             const double angle = level_angle(source, k);
             // The ends take what is finer and coarser than the pyramid. Nowhere nothing, so that quotients exist.
-            share[size_t(k)] = between(source, depth, k == 0 ? 0 : k <= 2 ? angle / sqrt2 : angle / 2,
+            share[size_t(k)] = between(source, depth, k == 0 ? 0 : finer(k) == 0 ? angle / sqrt2 : angle / 2,
                                        k == source.top ? widest : k == 0 ? finest : angle * 2);
             all += share[size_t(k)];
         }
         double coarser = 0;
-        for (int k = source.top; k >= 0; k -= k > 1 ? 2 : 1) {
+        for (int k = source.top; k >= 0; k = finer(k)) {
             const double s = std::max(share[size_t(k)], 1e-5 * all);
             values[size_t(k * spread_row + place)] =
                 float(k == source.top ? 1 : k > 0 ? s / coarser : s / (s + coarser));

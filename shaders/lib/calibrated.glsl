@@ -12,6 +12,7 @@ struct Calibrated {
     int coverage;        // channels that coverage has: 1 in grey media
     int lights;          // those whose single scattering another effect adds
     float first_place;   // log2 of P at place 0 of the table
+    float per_reach;     // 1 / P there
     vec3 detour;         // y / P^1.2 of arrived()
 };
 
@@ -24,9 +25,10 @@ const int spread_row = 49;
 
 // Light stays at every second level, counted from the coarsest: deviations a factor of 4 apart add up to the cusp and the
 // tails of what single Gaussians cannot follow, and cost half as much as all levels.
+// (What level 1 would hold is as good as not spread.)
 PURE bool collects(IN(Calibrated) f, int level)
 {
-    return ((f.top - level) & 1) == 0;
+    return level == f.top || (((f.top - level) & 1) == 0 && level > 1);
 }
 
 // Luminances of light that is as good as none and as good as infinite.
@@ -54,6 +56,12 @@ PURE float visible_share(sampler2D table, int level, float ratio)
 PURE float spread_place(IN(Calibrated) f, float octaves)
 {
     return clamp(R(2.0) * (octaves - f.first_place), R(0.0), float(spread_places - 1));
+}
+
+// 2^(place / 2).
+PURE float reach_of(IN(Calibrated) f, float p)
+{
+    return clamp(p * f.per_reach, R(1.0), R(46340.95));
 }
 
 PURE float octaves_of(float p)
@@ -104,7 +112,7 @@ PURE Spreading spreading_source(IN(Medium) medium, IN(Calibrated) f, sampler2D t
     float octaves = octaves_of(p);
     vec3 share = arrived_share(medium, f, p, octaves, scattered);
     float place = spread_place(f, octaves);
-    return passed_on(medium, share * shown * finite_or_zero(color), share, exp2(-R(0.5) * place),
+    return passed_on(medium, share * shown * finite_or_zero(color), share, R(1.0) / reach_of(f, p),
                      R(1.0) - staying(table, 0, place));
 }
 
@@ -214,10 +222,10 @@ PURE vec3 collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sample
 {
     float octaves = octaves_of(p);
     float place = spread_place(f, octaves);
-    float reach = exp2(R(0.5) * place);
+    float reach = reach_of(f, p);
     vec3 coverage = staying(table, 0, place) * arrived_share(medium, f, p, octaves, share);
     vec3 sum = coverage * shown * finite_or_zero(color);
-    for (int k = f.top; k > 0; k -= 2) {
+    for (int k = f.top; k > min(1, f.top - 1); k -= 2) {
         Region region = level_region(pyramid, k);
         vec2 position = level_position(pixel, k);
         vec4 v = fetch_linear(stack, region, position);
