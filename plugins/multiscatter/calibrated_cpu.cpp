@@ -136,9 +136,9 @@ brume_status CpuPasses::smooth(int level)
 
 brume_status CpuPasses::compose()
 {
-    const Texture radiance = texture_of(smooth_radiance_), coverage = texture_of(smooth_coverage_), table = texture_of(table_);
+    const Texture radiance = texture_of(smooth_radiance_), coverage = texture_of(smooth_coverage_),
+                  ambient = texture_of(ambient_stack_), table = texture_of(table_);
     const Pyramid pyramid{ivec2(state_.width, state_.height), calibrated_.top};
-    const vec3 ambient = ambient_radiance(load(ambient_stack_, 0, level_rows(state_, state_.top).row));
     const float limit = frame_.scene->output_limit;
     return for_rows(services_, host_, "compose", state_.height, 8, [&](int y) {
         for (int x = 0; x < state_.width; ++x) {

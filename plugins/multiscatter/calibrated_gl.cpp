@@ -65,7 +65,7 @@ public:
 
     brume_status compose() override
     {
-        const int32_t outputs = int32_t(frame_.outputs), row = level_rows(state_, state_.top).row;
+        const int32_t outputs = int32_t(frame_.outputs);
         return run("compose", state_.compose,
                    {{"color", frame_.color, BRUME_ACCESS_FETCH, 0},
                     {"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
@@ -74,13 +74,13 @@ public:
                     {"table", state_.table, BRUME_ACCESS_FETCH, 0},
                     {"radiance_stack", state_.smooth_radiance, BRUME_ACCESS_LINEAR, 0},
                     {"coverage_stack", state_.smooth_coverage, BRUME_ACCESS_LINEAR, 0},
-                    {"ambient_stack", state_.ambient_stack, BRUME_ACCESS_FETCH, 0},
+                    {"ambient_stack", state_.ambient_stack, BRUME_ACCESS_LINEAR, 0},
                     {"result", frame_.output, BRUME_ACCESS_WRITE, 0},
                     {"transmittance_out", frame_.transmittance, BRUME_ACCESS_WRITE, 0},
                     {"optical_depth_out", frame_.optical_depth, BRUME_ACCESS_WRITE, 0},
                     {"scattered_out", frame_.scattered, BRUME_ACCESS_WRITE, 0},
                     {"blur_radius_out", frame_.blur_radius, BRUME_ACCESS_WRITE, 0}},
-                   {integer("outputs", outputs), integer("ambient_row", row)}, ivec2(state_.width, state_.height));
+                   {integer("outputs", outputs)}, ivec2(state_.width, state_.height));
     }
 
 private:

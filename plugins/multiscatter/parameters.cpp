@@ -27,9 +27,9 @@ enum Index {
 using namespace brume_parameters;
 
 constexpr brume_parameter_info table[count] = {
-    choice("kernel", "paper|reference|calibrated", 0,
-           "paper: the hierarchical filter of Iser 2018; calibrated: light spreads as Monte Carlo says it does; "
-           "reference: exact splatting of kernel paper in double, CPU only, minutes a frame"),
+    choice("kernel", "paper|reference|calibrated", 2,
+           "calibrated: light spreads as Monte Carlo says it does; paper: the hierarchical filter of Iser 2018, which the other "
+           "parameters but `levels` are of; reference: exact splatting of kernel paper in double, CPU only, minutes a frame"),
     choice("kernel_size", "2x2|4x4|6x6", 1, "kernel between pyramid levels; larger is smoother and slower"),
     choice("fetch", "linear_bilinear|linear_bicubic|cubic_bicubic", 1,
            "interpolation across and within levels; linear_bilinear shows blocks in motion"),

@@ -9,7 +9,7 @@ namespace multiscatter {
 
 enum class Kernel { paper, reference, calibrated };
 
-// The effect's parameters as its passes read them. Defaults are the paper's.
+// The effect's parameters as its passes read them. Those of kernel paper default to the paper's.
 struct Parameters {
     Kernel kernel;
     int taps;  // of the pyramid's kernel: 2, 4 or 6

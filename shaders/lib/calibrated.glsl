@@ -172,8 +172,12 @@ PURE vec4 ambient_texel(IN(Calibrated) f, sampler2D finer, sampler2D finer_cover
     return sum;
 }
 
-PURE vec3 ambient_radiance(vec4 sum)
+// Of the coarsest level, which is a single texel unless the pyramid was told to stop before.
+PURE vec3 ambient_radiance(sampler2D stack, IN(Pyramid) pyramid, vec2 pixel)
 {
+    Region region = level_region(pyramid, pyramid.top);
+    vec4 sum = region.size.x * region.size.y == 1 ? texelFetch(stack, ivec2(0, region.row), 0)
+                                                  : fetch_linear(stack, region, level_position(pixel, pyramid.top));
     vec3 root = vec3(sum) / max(sum.w, R(1e-30));
     return root * root * root * root;
 }
@@ -217,7 +221,7 @@ PURE vec3 coverage_at(sampler2D stack, IN(Calibrated) f, IN(Region) region, vec2
 }
 
 // All that the medium scatters toward the camera in front of what a pixel shows. share: its scattered_share().
-PURE vec3 collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack, vec3 ambient,
+PURE vec3 collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack, sampler2D ambient_stack,
                     IN(Pyramid) pyramid, vec2 pixel, float p, vec3 share, vec3 color, vec3 shown)
 {
     float octaves = octaves_of(p);
@@ -236,5 +240,5 @@ PURE vec3 collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sample
         coverage += visible * covered;
     }
     vec3 kept = min(share / max(coverage, vec3(R(1e-35))), vec3(R(1.0)));
-    return kept * sum + max(share - coverage, vec3(R(0.0))) * ambient;
+    return kept * sum + max(share - coverage, vec3(R(0.0))) * ambient_radiance(ambient_stack, pyramid, pixel);
 }

@@ -15,7 +15,6 @@ uniform Camera brume_camera;
 uniform Filter multiscatter;
 #if PYRAMID == 2
 uniform Calibrated calibrated;
-uniform int ambient_row;
 uniform sampler2D lights;
 uniform sampler2D table;
 uniform sampler2D coverage_stack;
@@ -52,8 +51,7 @@ void main()
 #if PYRAMID == 2
     vec3 shown = shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r,
                              pixel.density);
-    added += collected(brume_medium, calibrated, table, radiance_stack, coverage_stack,
-                       ambient_radiance(texelFetch(ambient_stack, ivec2(0, ambient_row), 0)),
+    added += collected(brume_medium, calibrated, table, radiance_stack, coverage_stack, ambient_stack,
                        Pyramid(brume_grid, calibrated.top), centre, pixel.density, pixel.share, source.rgb, shown);
 #elif PYRAMID == 1
     added += gathered(radiance, radiance_stack, spread_stack, separated, separated_stack,

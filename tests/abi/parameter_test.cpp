@@ -171,6 +171,7 @@ TEST_F(Parameters, TextAndNumberSetTheSame)
 {
     const auto result_of = [&](std::function<void(brume_scene)> change) {
         Scene fog = make_scene(context, foggy);
+        brume_scene_set_text(fog.get(), "multiscatter", "kernel", "paper");
         change(fog.get());
         Plan plan = make_plan(context, fog, ray_format(40, 30));
         Picture color(40, 30), depth(40, 30, {.channels = 1}), output(40, 30);

@@ -77,7 +77,7 @@ TEST_P(Plans, DropWhatTheSceneDoesNotNeed)
     };
     EXPECT_EQ(names(only_absorption, true), "compose ");
     EXPECT_EQ(names(only_absorption, false), "pyramid ");
-    EXPECT_EQ(names(foggy, true), "scatter downsample compose ");
+    EXPECT_EQ(names(foggy, true), "scatter downsample smooth compose ");
 }
 
 TEST_P(Plans, MeasuredTimesComeWithAFrame)

@@ -60,12 +60,13 @@ protected:
 TEST_P(Calibrated, WhiteFurnace)
 {
     for (auto [w, h] : {std::pair(1, 1), {64, 48}, {37, 23}, {1, 200}, {130, 7}, {2, 2}})
-        for (const char *medium : clear_media) {
-            const Picture color(w, h, 4, 3.5f);
-            const Worst worst =
-                compare(run(context(), scene(medium, kernel), color, random_depth(w, h, 3)).output, color, 1e-3);
-            EXPECT_LT(worst.error, 1e-5) << w << "x" << h << " " << medium << " " << worst.describe();
-        }
+        for (const char *medium : clear_media)
+            for (const char *levels : {"", ",\"levels\":3"}) {
+                const Picture color(w, h, 4, 3.5f);
+                const Worst worst =
+                    compare(run(context(), scene(medium, kernel + levels), color, random_depth(w, h, 3)).output, color, 1e-3);
+                EXPECT_LT(worst.error, 1e-5) << w << "x" << h << " " << medium << levels << " " << worst.describe();
+            }
 }
 
 // What arrives of a pixel's scattered light: T_tot - e^-tau, of which none is lost on the way over the pyramid.
@@ -80,6 +81,18 @@ TEST_P(Calibrated, EnergyOfOnePixel)
         const double expected = 1000 * (1 / (1 + 0.45 * std::pow(0.1 * tau, 1.2)) - std::exp(-tau));
         EXPECT_NEAR(scattered_sum(r) / expected, 1, 1e-3) << tau;
     }
+}
+
+TEST_P(Calibrated, DensityTimesCrossSectionIsAllThatCounts)
+{
+    const Picture color = random_lights(90, 50, 7), depth = random_depth(90, 50, 8);
+    const Picture one = run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7", kernel), color, depth).output;
+    const Picture two = run(context(),
+                            scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,"
+                                  "\"density\":[{\"type\":\"constant\",\"value\":2}]", kernel),
+                            color, depth).output;
+    const Worst worst = compare(two, one, 1e-2);
+    EXPECT_LT(worst.error, 1e-4) << worst.describe();
 }
 
 // Steps of a fifth of a pixel; what arrives does not flicker.

@@ -9,6 +9,14 @@ using namespace fog;
 
 namespace {
 
+// Kernel `paper`, unless the parameters name another.
+std::string paper_scene(const std::string &medium, const std::string &parameters = "")
+{
+    if (parameters.find("\"kernel\"") != std::string::npos)
+        return scene(medium, parameters);
+    return scene(medium, "\"kernel\":\"paper\"" + (parameters.empty() ? "" : "," + parameters));
+}
+
 const std::string plain_filter = "\"masking\":false,\"separation\":false";
 
 Picture constant_depth(int width, int height, float metres)
@@ -80,7 +88,7 @@ TEST_P(Backends, ConstantDepthIsBeersLaw)
     for (double sigma : {0.0, 1e-6, 0.01, 0.3, 2.0})
         for (float d : {1e-3f, 1.0f, 17.0f, 1000.0f}) {
             Picture color(5, 3, 4, 1), depth = constant_depth(5, 3, d);
-            auto r = run(context(), scene("\"absorption\":" + std::to_string(sigma)), color, depth,
+            auto r = run(context(), paper_scene("\"absorption\":" + std::to_string(sigma)), color, depth,
                          {ray_depth, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH, 0});
             double tau = std::stod(std::to_string(sigma)) * d;
             EXPECT_NEAR(r.output.at(2, 1)[1], std::exp(-tau), tolerance) << sigma << " " << d;
@@ -92,7 +100,7 @@ TEST_P(Backends, ConstantDepthIsBeersLaw)
 TEST_P(Backends, PlanarDepthIsLongerTowardsTheCorners)
 {
     Picture color(9, 9, 4, 1), depth = constant_depth(9, 9, 10);
-    auto r = run(context(), scene("\"absorption\":0.1"), color, depth, {{}, BRUME_OUTPUT_OPTICAL_DEPTH, 0});
+    auto r = run(context(), paper_scene("\"absorption\":0.1"), color, depth, {{}, BRUME_OUTPUT_OPTICAL_DEPTH, 0});
     double tangent = std::tan(25 * M_PI / 180) * 8 / 9;  // of the outermost pixel centres
     EXPECT_NEAR(r.optical_depth.at(4, 4)[0], 1, 1e-5);
     EXPECT_NEAR(r.optical_depth.at(0, 4)[0], std::sqrt(1 + tangent * tangent), 1e-5);
@@ -111,12 +119,12 @@ TEST_P(Backends, WhiteFurnace)
                 for (float &d : depth.data)
                     d = u(random) < 0.2f ? INFINITY : 100 * u(random);
                 auto r = run(context(),
-                             scene("\"scattering\":0.02,\"g\":0.3",
+                             paper_scene("\"scattering\":0.02,\"g\":0.3",
                                    plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                              color, depth, {{}, BRUME_OUTPUT_TRANSMITTANCE, 0});
                 // Depths differ per pixel, so L_sc varies; what is uniform is L. Only where all depths agree is L' = L.
                 auto same = run(context(),
-                                scene("\"scattering\":0.02,\"g\":0.3",
+                                paper_scene("\"scattering\":0.02,\"g\":0.3",
                                       plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                                 color, constant_depth(w, h, 40), {ray_depth, 0, 0});
                 Worst worst = compare(same.output, color, 1e-3);
@@ -131,7 +139,7 @@ TEST_P(Backends, MaskingLosesHalfOfAUniformImagesScatteredLight)
 {
     // As docs/accuracy.md says of the paper's mask, read literally.
     Picture color(256, 256, 4, 1);
-    auto r = run(context(), scene("\"scattering\":0.05,\"g\":0.8"), color, constant_depth(256, 256, 30),
+    auto r = run(context(), paper_scene("\"scattering\":0.05,\"g\":0.8"), color, constant_depth(256, 256, 30),
                  {ray_depth, BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_TRANSMITTANCE, 0});
     double kept = r.scattered.at(128, 128)[0] / (1 - r.transmittance.at(128, 128)[0]);
     EXPECT_GT(kept, 0.2);
@@ -148,7 +156,7 @@ TEST_P(Backends, EnergyBalanceOfOnePixel)
                     Picture color(w, h, 4, 0);
                     color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
                     auto r = run(context(),
-                                 scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9",
+                                 paper_scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9",
                                        plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                                  color, constant_depth(w, h, 20), {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
                     double expected = 1000 * -std::expm1(-sigma * 20);
@@ -162,7 +170,7 @@ TEST(Reference, OnePixelBecomesItsGaussian)
 {
     Picture color(161, 161, 4, 0);
     color.at(80, 80)[0] = 1;
-    auto r = run(cpu(), scene("\"scattering\":0.005,\"g\":0.8", "\"kernel\":\"reference\""), color,
+    auto r = run(cpu(), paper_scene("\"scattering\":0.005,\"g\":0.8", "\"kernel\":\"reference\""), color,
                  constant_depth(161, 161, 20), {ray_depth, BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0});
     double w = r.blur_radius.at(80, 80)[0];
     ASSERT_GT(w, 2);
@@ -179,7 +187,7 @@ TEST(Reference, SplattingIsLinearAndSymmetric)
     Picture a = random_color(33, 20, 1), b = random_color(33, 20, 2), both = a, depth = constant_depth(33, 20, 25);
     for (size_t i = 0; i < both.data.size(); ++i)
         both.data[i] = a.data[i] + b.data[i];
-    std::string s = scene("\"scattering\":0.03,\"g\":0.9", "\"kernel\":\"reference\"");
+    std::string s = paper_scene("\"scattering\":0.03,\"g\":0.9", "\"kernel\":\"reference\"");
     auto ra = run(cpu(), s, a, depth, {ray_depth, 0, 0}), rb = run(cpu(), s, b, depth, {ray_depth, 0, 0}),
          rab = run(cpu(), s, both, depth, {ray_depth, 0, 0});
     for (int y = 0; y < 20; ++y)
@@ -200,7 +208,7 @@ TEST(Reference, IsRefusedOnGlWithTheReason)
     if (!gl())
         throw std::runtime_error("no GL backend");
     try {
-        run(*gl(), scene("\"scattering\":0.03", "\"kernel\":\"reference\""), Picture(4, 4, 4, 1), constant_depth(4, 4, 1));
+        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"reference\""), Picture(4, 4, 4, 1), constant_depth(4, 4, 1));
         FAIL() << "expected a refusal";
     } catch (const Failure &failure) {
         EXPECT_EQ(failure.status, BRUME_ERROR_UNSUPPORTED);
@@ -216,7 +224,7 @@ TEST(Paper, RealisedDeviationAgainstTheOneAskedFor)
     for (double sigma = 0.004; sigma < 0.2; sigma *= 1.3) {
         Picture color(513, 513, 4, 0);
         color.at(256, 256)[0] = 1000;
-        auto r = run(cpu(), scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9", plain_filter), color,
+        auto r = run(cpu(), paper_scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9", plain_filter), color,
                      constant_depth(513, 513, 20), {ray_depth, BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0});
         double ratio = std::sqrt(variance(r.scattered)) / r.blur_radius.at(256, 256)[0];
         least = std::min(least, ratio);
@@ -244,7 +252,7 @@ TEST_P(Backends, ResolutionInvariance)
             std::copy_n(color.at(x / 2, y / 2), 4, color2.at(x, y));
             depth2.at(x, y)[0] = depth.at(x / 2, y / 2)[0];
         }
-    std::string s = scene("\"scattering\":0.03,\"g\":0.8");
+    std::string s = paper_scene("\"scattering\":0.03,\"g\":0.8");
     auto one = run(context(), s, color, depth), two = run(context(), s, color2, depth2);
     double error = 0, mean = 0, difference = 0;
     for (int y = 0; y < h; ++y)
@@ -277,7 +285,7 @@ TEST_P(Backends, CropWithMarginEqualsTheWhole)
             std::copy_n(color.at(x + margin, y), 4, crop.at(x, y));
             crop_depth.at(x, y)[0] = depth.at(x + margin, y)[0];
         }
-    std::string s = scene("\"scattering\":0.02,\"g\":0.9", "\"levels\":4");
+    std::string s = paper_scene("\"scattering\":0.02,\"g\":0.9", "\"levels\":4");
     auto whole = run(context(), s, color, depth);
     auto part = run(context(), s, crop, crop_depth,
                     {[&](brume_format &f) {
@@ -299,7 +307,7 @@ TEST_P(Backends, ThePictureDoesNotDriftWhereSizesAreOdd)
     for (int size : {255, 256, 257, 333}) {
         Picture color(size, size, 4, 0);
         color.at(size / 2, size / 2)[0] = 1000;
-        auto r = run(context(), scene("\"scattering\":0.01,\"g\":0.9", plain_filter), color, constant_depth(size, size, 20),
+        auto r = run(context(), paper_scene("\"scattering\":0.01,\"g\":0.9", plain_filter), color, constant_depth(size, size, 20),
                      {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
         double m0 = 0, mx = 0, my = 0;
         for (int y = 0; y < size; ++y)
@@ -322,14 +330,14 @@ TEST_P(Backends, DensityTimesCrossSectionIsAllThatCounts)
         for (int y = 0; y < 12; ++y)
             depth.at(x, y)[0] = 400;
     Options blur{{}, BRUME_OUTPUT_BLUR_RADIUS, 0};
-    auto one = run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7"), color, depth, blur);
+    auto one = run(context(), paper_scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7"), color, depth, blur);
     auto two =
         run(context(),
-            scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
+            paper_scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
             color, depth, blur);
     auto limit = run(
         context(),
-        scene(
+        paper_scene(
             "\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7,\"density\":[{\"type\":\"exponential\",\"falloff\":1e-9}]"),
         color, depth, blur);
     EXPECT_LT(compare(two.output, one.output, 1e-2).error, 1e-5);
@@ -343,7 +351,7 @@ TEST_P(Backends, SkyBehindFiniteFogIsBlurred)
     Picture color(60, 60, 4, 0.2f), depth = constant_depth(60, 60, INFINITY);
     auto r = run(
         context(),
-        scene(
+        paper_scene(
             "\"scattering\":0.02,\"g\":0.8,\"density\":[{\"type\":\"exponential\",\"falloff\":0.05,\"direction\":[0,1,0]}]"),
         color, depth, {{}, BRUME_OUTPUT_BLUR_RADIUS | BRUME_OUTPUT_OPTICAL_DEPTH, 0});
     float w = r.blur_radius.at(30, 5)[0], tau = r.optical_depth.at(30, 5)[0];
@@ -357,7 +365,7 @@ TEST_P(Backends, EmissionSaturatesAtItsSourceFunction)
 {
     Picture color(4, 4, 4, 0);
     for (float d : {0.01f, 1.0f, 100.0f, INFINITY}) {
-        auto r = run(context(), scene("\"absorption\":0.05,\"emission\":[0.1,0.05,0]"), color, constant_depth(4, 4, d),
+        auto r = run(context(), paper_scene("\"absorption\":0.05,\"emission\":[0.1,0.05,0]"), color, constant_depth(4, 4, d),
                      {ray_depth, 0, 0});
         double share = std::isinf(d) ? 1 : -std::expm1(-0.05 * d);
         EXPECT_NEAR(r.output.at(1, 1)[0], 2 * share, 2e-5 * share + 1e-9) << d;
@@ -369,7 +377,7 @@ TEST_P(Backends, EmissionSaturatesAtItsSourceFunction)
 TEST_P(Backends, SkyOptions)
 {
     Picture color(8, 8, 4, 1), depth = constant_depth(8, 8, INFINITY);
-    std::string s = scene("\"absorption\":0.1");
+    std::string s = paper_scene("\"absorption\":0.1");
     EXPECT_EQ(run(context(), s, color, depth).output.at(3, 3)[0], 0.0f);
     EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }, 0, 0}).output.at(3, 3)[0],
               1.0f);
@@ -392,7 +400,7 @@ TEST_P(Backends, SeparationKeepsTheGlowOfNearLightsBeforeAFarBackground)
             depth.at(x, y)[0] = 30;
         }
     auto glow = [&](const std::string &parameters) {
-        auto r = run(context(), scene("\"scattering\":0.01,\"g\":0.5", parameters), color, depth,
+        auto r = run(context(), paper_scene("\"scattering\":0.01,\"g\":0.5", parameters), color, depth,
                      {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
         double total = 0;
         for (int y = 0; y < 128; ++y)
@@ -411,7 +419,7 @@ TEST_P(Backends, FewerLevelsCapTheBlur)
     Picture color(100, 60, 4, 0), depth = constant_depth(100, 60, 50);
     color.at(20, 30)[0] = 1000;
     auto far_away = [&](int levels) {
-        auto r = run(context(), scene("\"scattering\":0.05", plain_filter + ",\"levels\":" + std::to_string(levels)), color,
+        auto r = run(context(), paper_scene("\"scattering\":0.05", plain_filter + ",\"levels\":" + std::to_string(levels)), color,
                      depth, {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
         EXPECT_GT(r.scattered.at(20, 30)[0], 0);
         return r.scattered.at(60, 30)[0];

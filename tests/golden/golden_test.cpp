@@ -33,17 +33,22 @@ const char *const lantern_and_spot = LANTERN("[-4.5,9.5,3.74]") ","
     BLOB("[2,14,1]", "\"scale\":0.6,\"amplitude\":0.6") "]"
 
 const Golden goldens[] = {
-    {"paper", "\"scattering\":[0.03,0.03,0.032],\"g\":0.8", ""},
+    {"paper", "\"scattering\":[0.03,0.03,0.032],\"g\":0.8", "\"kernel\":\"paper\""},
     {"paper_tilted_exponential",
      "\"scattering\":0.06,\"absorption\":[0.002,0.001,0],\"g\":0.6,\"density\":[{\"type\":\"exponential\",\"value\":1,"
      "\"falloff\":0.15,\"direction\":[0.1,0,1]}]",
-     ""},
-    {"paper_bilinear_2x2", "\"scattering\":0.05,\"g\":0.8", "\"kernel_size\":\"2x2\",\"fetch\":\"linear_bilinear\""},
-    {"paper_cubic_6x6", "\"scattering\":0.05,\"g\":0.8", "\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\""},
+     "\"kernel\":\"paper\""},
+    {"paper_bilinear_2x2", "\"scattering\":0.05,\"g\":0.8", "\"kernel\":\"paper\",\"kernel_size\":\"2x2\",\"fetch\":\"linear_bilinear\""},
+    {"paper_cubic_6x6", "\"scattering\":0.05,\"g\":0.8", "\"kernel\":\"paper\",\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\""},
     {"paper_separation", "\"scattering\":0.05,\"g\":0.8",
-     "\"separation\":true,\"separation_luminance\":4,\"separation_density\":60"},
-    {"paper_furnace", "\"visibility\":80,\"g\":0.8", "\"masking\":false,\"density_blurring\":false"},
+     "\"kernel\":\"paper\",\"separation\":true,\"separation_luminance\":4,\"separation_density\":60"},
+    {"paper_furnace", "\"visibility\":80,\"g\":0.8", "\"kernel\":\"paper\",\"masking\":false,\"density_blurring\":false"},
     {"paper_emission", "\"scattering\":0.02,\"absorption\":0.01,\"emission\":[0.004,0.005,0.008],\"droplet_diameter\":12",
+     "\"kernel\":\"paper\""},
+    {"calibrated", "\"scattering\":[0.03,0.03,0.032],\"g\":0.8", ""},
+    {"calibrated_exponential",
+     "\"scattering\":0.06,\"absorption\":[0.002,0.001,0],\"g\":0.3,\"density\":[{\"type\":\"exponential\",\"value\":1,"
+     "\"falloff\":0.15,\"direction\":[0.1,0,1]}]",
      ""},
     {"reference", "\"scattering\":0.02,\"absorption\":0.01,\"g\":0.9", "\"kernel\":\"reference\""},
     {"airlight_nodes", "\"scattering\":[0.3,0.3,0.31],\"droplet_diameter\":12," BANK, "\"max_error\":0.001",
