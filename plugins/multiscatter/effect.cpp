@@ -41,6 +41,7 @@ private:
     brume_status need_camera(bool scatters);
     brume_status plan_levels(State &state);
     brume_status plan_pyramid(State &state);
+    brume_status drop_settings_of_paper();
     brume_status plan_paper(State &state);
 
     const brume_services &services_;
@@ -92,11 +93,24 @@ brume_status Planner::plan_pyramid(State &state)
         if (!s)
             s = run("compose", "attenuates; scattered light stays in its pixel", 16 + 4 + 16, 130);
     } else {
-        s = state.parameters.kernel == Kernel::calibrated ? plan_calibrated(services_, host_, request_, state) : plan_paper(state);
+        s = state.parameters.kernel == Kernel::paper ? plan_paper(state) : drop_settings_of_paper();
+        if (!s && state.parameters.kernel == Kernel::calibrated)
+            s = plan_calibrated(services_, host_, request_, state);
     }
     if (!s && request_.backend == BRUME_BACKEND_GL)
         s = compile_programs(services_, host_, request_.outputs, state);
     return s;
+}
+
+brume_status Planner::drop_settings_of_paper()
+{
+    std::string names;
+    for (size_t i = 0; i < parameter_table().size(); ++i) {
+        const brume_parameter_info &p = parameter_table()[i];
+        if (request_.parameters[i] != p.default_number && p.name != std::string("kernel") && p.name != std::string("levels"))
+            names += (names.empty() ? "" : ", ") + std::string(p.name);
+    }
+    return names.empty() ? BRUME_OK : drop("settings", names + ": of kernel paper, which is not the one chosen");
 }
 
 brume_status Planner::plan_paper(State &state)

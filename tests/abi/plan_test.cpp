@@ -78,6 +78,10 @@ TEST_P(Plans, DropWhatTheSceneDoesNotNeed)
     EXPECT_EQ(names(only_absorption, true), "compose ");
     EXPECT_EQ(names(only_absorption, false), "pyramid ");
     EXPECT_EQ(names(foggy, true), "scatter downsample smooth compose ");
+    EXPECT_EQ(names(foggy, false), "");
+    std::string with_setting = foggy;
+    with_setting.insert(with_setting.rfind('}'), ",\"effects\":{\"multiscatter\":{\"masking\":false}}");
+    EXPECT_EQ(names(with_setting.c_str(), false), "settings ");
 }
 
 TEST_P(Plans, MeasuredTimesComeWithAFrame)
