@@ -11,8 +11,15 @@ struct Message {
     std::string text;
 };
 
+// A context may be destroyed after its thread's other objects: from the destructor of something static.
+thread_local bool ended = false;
+
+struct Messages : std::vector<Message> {
+    ~Messages() { ended = true; }
+};
+
 // Of the contexts this thread failed in last; short, so that threads which meet many contexts do not grow.
-thread_local std::vector<Message> messages;
+thread_local Messages messages;
 constexpr size_t message_limit = 16;
 
 uint64_t id_of(const Context *context)
@@ -24,6 +31,8 @@ uint64_t id_of(const Context *context)
 
 void api::set_message(const Context *context, const std::string &message)
 {
+    if (ended)
+        return;
     forget_messages(context);
     if (messages.size() == message_limit)
         messages.erase(messages.begin());
@@ -33,6 +42,8 @@ void api::set_message(const Context *context, const std::string &message)
 const std::string &api::message_of(const Context *context)
 {
     static const std::string none;
+    if (ended)
+        return none;
     for (const Message &message : messages)
         if (message.context == id_of(context))
             return message.text;
@@ -41,7 +52,8 @@ const std::string &api::message_of(const Context *context)
 
 void api::forget_messages(const Context *context)
 {
-    std::erase_if(messages, [&](const Message &message) { return message.context == id_of(context); });
+    if (!ended)
+        std::erase_if(messages, [&](const Message &message) { return message.context == id_of(context); });
 }
 
 extern "C" {
