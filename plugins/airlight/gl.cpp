@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/uniforms.hpp"
 #include "passes.h"
 #include "settings.h"
 
@@ -13,16 +14,7 @@ std::string_view pass_text(std::string_view name);
 namespace {
 
 using namespace brume::maths_float;
-
-brume_plugin_uniform integer(const char *name, const int32_t &value)
-{
-    return {name, BRUME_UNIFORM_INT, 1, 1, 0, &value};
-}
-
-brume_plugin_uniform real(const char *name, const float &value)
-{
-    return {name, BRUME_UNIFORM_FLOAT, 1, 1, 0, &value};
-}
+using namespace brume_uniforms;
 
 brume_plugin_uniform pair(const char *name, const ivec2 &value)
 {
@@ -38,9 +30,9 @@ std::vector<brume_plugin_uniform> settings_uniforms(const AirlightSettings &s)
             integer("airlight.panels", s.panels),
             integer("airlight.dense_from", s.dense_from),
             integer("airlight.cells", s.cells),
-            real("airlight.tolerance", s.tolerance),
-            real("airlight.near_radii", s.near_radii),
-            real("airlight.culled", s.culled)};
+            number("airlight.tolerance", s.tolerance),
+            number("airlight.near_radii", s.near_radii),
+            number("airlight.culled", s.culled)};
 }
 
 class GlPasses : public Passes {

@@ -81,6 +81,12 @@ PURE vec3 arrived_share(IN(Medium) medium, IN(Calibrated) f, float p, float octa
     return max(share - lost, R(1e-4) * share);
 }
 
+// Texels of coverage hold one value for all channels in grey media.
+PURE vec3 coverage_of(IN(Calibrated) f, vec4 texel)
+{
+    return f.coverage == 1 ? vec3(texel.x) : vec3(texel);
+}
+
 // What a pixel or texel passes on to coarser levels. Of sources at different P it is the mean of 1 / P that counts, so that the
 // near ones decide: what is behind them is lit by all.
 struct Spreading {
@@ -140,8 +146,7 @@ PURE Spreading spreading_texel(IN(Medium) medium, IN(Calibrated) f, sampler2D ta
     float nearness = nearness_of(medium, sum);
     float share = level == f.top || !collects(f, level) ? R(1.0)
                                                         : R(1.0) / (R(1.0) + staying(table, level, -R(2.0) * log2(nearness)));
-    vec3 shares = f.coverage == 1 ? vec3(coverage.x) : vec3(coverage);
-    return passed_on(medium, vec3(sum), shares, nearness, share);
+    return passed_on(medium, vec3(sum), coverage_of(f, coverage), nearness, share);
 }
 
 // Fourth roots: a lamp counts for little in what the surroundings are taken to be, whose light it adds to by itself. W counts.
@@ -164,9 +169,8 @@ PURE vec4 ambient_texel(IN(Calibrated) f, sampler2D finer, sampler2D finer_cover
             if (level > 1) {
                 sum += R(0.25) * texelFetch(finer_ambient, from, 0);
             } else {
-                vec4 coverage = texelFetch(finer_coverage, from, 0);
                 sum += R(0.25) * ambient_source(vec3(texelFetch(finer, from, 0)),
-                                                f.coverage == 1 ? vec3(coverage.x) : vec3(coverage));
+                                                coverage_of(f, texelFetch(finer_coverage, from, 0)));
             }
         }
     return sum;
@@ -210,7 +214,7 @@ PURE Spreading stayed(IN(Medium) medium, IN(Calibrated) f, sampler2D table, samp
         }
     float nearness = nearness_of(medium, sum);
     float share = level == f.top ? R(1.0) : staying(table, level, -R(2.0) * log2(nearness));
-    return passed_on(medium, vec3(sum), f.coverage == 1 ? vec3(coverage.x) : vec3(coverage), nearness, share);
+    return passed_on(medium, vec3(sum), coverage_of(f, coverage), nearness, share);
 }
 
 PURE vec3 coverage_at(sampler2D stack, IN(Calibrated) f, IN(Region) region, vec2 position)

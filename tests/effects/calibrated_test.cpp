@@ -138,7 +138,7 @@ TEST_P(Calibrated, ResolutionInvariance)
                 difference += std::abs(a - b);
             }
     printf("1x against 2x: mean difference %.2f %% of the mean\n", 100 * difference / mean);
-    EXPECT_LT(difference / mean, 0.02);
+    EXPECT_LT(difference / mean, 0.005);
 }
 
 // Light reaches a near surface's pixel only through the medium in front of it.
