@@ -14,16 +14,6 @@ namespace {
 
 enum Slot : uint32_t { slot_table };
 
-SpreadSource source_of(const State &state, const brume_plugin_scene &scene)
-{
-    const auto &m = scene.medium;
-    auto mean = [&](const float(&v)[3]) {
-        return double(v[0]) * m.luminance[0] + double(v[1]) * m.luminance[1] + double(v[2]) * m.luminance[2];
-    };
-    return {std::max(mean(m.scattering), 1e-30), std::max(mean(m.absorption), 0.0), m.asymmetry,
-            std::sqrt(std::max(double(scene.camera.focal[0]) * scene.camera.focal[1], 1e-30)), state.top};
-}
-
 brume_status refresh_table(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state)
 {
     const SpreadSource source = source_of(state, scene);
@@ -43,29 +33,49 @@ bool grey(const float (&v)[3])
 
 }  // namespace
 
+SpreadSource source_of(const State &state, const brume_plugin_scene &scene)
+{
+    const auto &m = scene.medium;
+    auto mean = [&](const float(&v)[3]) {
+        return double(v[0]) * m.luminance[0] + double(v[1]) * m.luminance[1] + double(v[2]) * m.luminance[2];
+    };
+    return {std::max(mean(m.scattering), 1e-30),
+            std::max(mean(m.absorption), 0.0),
+            m.asymmetry,
+            std::sqrt(std::max(double(scene.camera.focal[0]) * scene.camera.focal[1], 1e-30)) / state.reduction,
+            state.top,
+            state.parameters.step};
+}
+
 LevelRows level_rows(const State &state, int level)
 {
-    const ivec2 base(state.width, state.height);
+    const ivec2 base = state.base();
     return {level_size(base, level), level_size(base, level - 1), level <= 1 ? 0 : level_row(base, level - 1),
             level_row(base, level)};
 }
 
-Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene)
+Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene, const SpreadSource &tabled)
 {
     const auto &m = scene.medium;
     vec3 detour;
     for (int c = 0; c < 3; ++c)
         detour[c] = float(0.45 * std::pow((1 - double(m.asymmetry)) * m.scattering[c], 1.2));
-    return {state.top, state.coverage_channels, state.beside_lights ? int(scene.light_count) : 0,
-            float(first_place(state.tabled)), float(std::exp2(-first_place(state.tabled))), detour};
+    return {state.top,
+            state.parameters.step,
+            state.coverage_channels,
+            state.beside_lights ? int(scene.light_count) : 0,
+            float(first_place(tabled)),
+            float(std::exp2(-first_place(tabled))),
+            detour};
 }
 
-brume_status plan_calibrated(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state)
+brume_status plan_calibrated(const brume_services &services, brume_host host, const brume_plugin_request &request,
+                             State &state)
 {
     const auto &medium = request.scene->medium;
     state.coverage_channels = !request.animated && grey(medium.scattering) && grey(medium.absorption) ? 1 : 4;
-    const ivec2 base(state.width, state.height);
-    const int stack_w = level_size(base, 1).x, stack_h = stack_height(state.width, state.height, state.top);
+    const ivec2 base = state.base();
+    const int stack_w = level_size(base, 1).x, stack_h = stack_height(base.x, base.y, state.top);
     auto image = [&](const char *label, int width, int height, int channels, brume_plugin_image &out) {
         return services.create_image(host, label, width, height, channels, &out);
     };
@@ -79,24 +89,40 @@ brume_status plan_calibrated(const brume_services &services, brume_host host, co
                            image("surroundings", stack_w, stack_h, 4, state.ambient_stack)})
         if (s)
             return s;
-    const double pixels = double(state.width) * state.height, texel = 16.0 + 4.0 * channels;
+    // Operations: about what a pass costs in nanoseconds of one thread of a server CPU, a texel.
+    const double pixels = double(state.width) * state.height, texels = double(base.x) * base.y,
+                 texel = 16.0 + 4.0 * channels, colours = channels == 1 ? 1 : 1.3,
+                 collecting = colours * 45.0 * (state.top / state.parameters.step),
+                 square = 16.0 * state.reduction * state.reduction;
     auto entry = [&](const char *name, const std::string &reason, double bytes, double operations) {
-        brume_plugin_entry e{sizeof e, 1, name, reason.c_str(), uint64_t(pixels * bytes), uint64_t(pixels * operations)};
+        brume_plugin_entry e{sizeof e, 1, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
         return services.add_entry(host, &e);
     };
-    const std::string levels = "levels 1 to " + std::to_string(state.top);
-    for (brume_status s :
-         {entry("scatter", "what of each pixel's light arrives scattered", 20 + texel, 150),
-          entry("downsample", levels + ": what spreads as far stays, the rest goes on", texel * 5 / 3, 16.0 / 3 * 14),
-          entry("smooth", levels + ": no creases between texels", texel * 2 / 3, 9.0 / 3 * 12),
-          entry("compose", "collects all levels as far as they lie in front of the pixel, adds what arrives straight",
-                36 + texel / 3, 120 + state.top * 60.0)})
+    const std::string levels = "levels 1 to " + std::to_string(state.top),
+                      collects = "collects all levels as far as they lie in front of the pixel";
+    for (brume_status s : {entry("scatter", "what of each pixel's light arrives scattered", texels * (4 + square + texel),
+                                 texels * (110 + square / 4)),
+                           entry("downsample", levels + ": what spreads as far stays, the rest goes on",
+                                 texels * texel * 5 / 3, texels * 50 * colours),
+                           entry("smooth", levels + ": no creases between texels", texels * texel / 3,
+                                 texels * 20 / (1 << (2 * state.parameters.step - 2)))})
         if (s)
             return s;
+    if (state.reduction > 1) {
+        if (brume_status s = entry("collect", collects, texels * (4 + texel * 4 / 3), texels * (60 + collecting)))
+            return s;
+        if (brume_status s = entry("compose", "brings that to every pixel, adds what arrives straight",
+                                   pixels * 36 + texels * texel, pixels * 190 * colours))
+            return s;
+    } else if (brume_status s = entry("compose", collects + ", adds what arrives straight", pixels * (36 + texel / 3),
+                                      pixels * (110 + collecting))) {
+        return s;
+    }
     return refresh_table(services, host, *request.scene, state);
 }
 
-brume_status execute_calibrated(const brume_services &services, brume_host host, State &state, const brume_plugin_frame &frame)
+brume_status execute_calibrated(const brume_services &services, brume_host host, State &state,
+                                const brume_plugin_frame &frame)
 {
     if (brume_status s = refresh_table(services, host, *frame.scene, state))
         return s;
@@ -107,8 +133,11 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
         status = passes->spread();
     for (int level = 1; level <= state.top && !status; ++level)
         status = passes->share(level);
-    for (int level = state.top; level > std::min(1, state.top - 1) && !status; level -= 2)
+    for (int level = state.top; level >= std::min(state.parameters.step, state.top) && !status;
+         level -= state.parameters.step)
         status = passes->smooth(level);
+    if (state.reduction > 1 && !status)
+        status = passes->collect();
     return status ? status : passes->compose();
 }
 

@@ -13,6 +13,7 @@ public:
     virtual brume_status spread() = 0;          // level 0
     virtual brume_status share(int level) = 0;  // from the finer one
     virtual brume_status smooth(int level) = 0;
+    virtual brume_status collect() = 0;  // at reduced resolution
     virtual brume_status compose() = 0;
 };
 
@@ -21,7 +22,9 @@ std::unique_ptr<CalibratedPasses> calibrated_on_cpu(const brume_services &servic
 std::unique_ptr<CalibratedPasses> calibrated_on_gl(const brume_services &services, brume_host host, const State &state,
                                                    const brume_plugin_frame &frame);
 
-brume::maths_float::Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene);
+SpreadSource source_of(const State &state, const brume_plugin_scene &scene);
+brume::maths_float::Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene,
+                                             const SpreadSource &tabled);
 
 // Where a level and the one finer than it lie in their images.
 struct LevelRows {

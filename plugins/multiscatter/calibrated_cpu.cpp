@@ -24,7 +24,7 @@ public:
     CpuPasses(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
         : services_(services), host_(host), state_(state), frame_(frame), medium_(medium_of(*frame.scene)),
           camera_(camera_of(*frame.scene)), filter_(filter_of(state, *frame.scene)),
-          calibrated_(calibrated_of(state, *frame.scene))
+          calibrated_(calibrated_of(state, *frame.scene, state.tabled))
     {
     }
 
@@ -32,6 +32,7 @@ public:
     brume_status spread() override;
     brume_status share(int level) override;
     brume_status smooth(int level) override;
+    brume_status collect() override;
     brume_status compose() override;
 
 private:
@@ -56,9 +57,9 @@ private:
     Camera camera_;
     Filter filter_;
     Calibrated calibrated_;
-    brume_plugin_pixels color_{}, depth_{}, gaussian_density_{}, lights_{}, output_{}, radiance_{}, radiance_stack_{}, coverage_{},
-        coverage_stack_{}, smooth_radiance_{}, smooth_coverage_{}, ambient_stack_{}, table_{}, transmittance_{}, optical_depth_{},
-        scattered_{}, blur_radius_{};
+    brume_plugin_pixels color_{}, depth_{}, gaussian_density_{}, lights_{}, output_{}, radiance_{}, radiance_stack_{},
+        coverage_{}, coverage_stack_{}, smooth_radiance_{}, smooth_coverage_{}, ambient_stack_{}, table_{}, transmittance_{},
+        optical_depth_{}, scattered_{}, blur_radius_{};
 };
 
 brume_status CpuPasses::map()
@@ -91,12 +92,15 @@ brume_status CpuPasses::map()
 
 brume_status CpuPasses::spread()
 {
-    const Texture table = texture_of(table_);
-    return for_rows(services_, host_, "scatter", state_.height, 8, [&](int y) {
-        for (int x = 0; x < state_.width; ++x) {
-            const Pixel pixel = pixel_at(x, y);
-            const Spreading s = spreading_source(medium_, calibrated_, table, pixel.density, pixel.share, vec3(load(color_, x, y)),
-                                                 shown(x, y, pixel));
+    const Texture table = texture_of(table_), color = texture_of(color_);
+    const ivec2 base = state_.base(), size(state_.width, state_.height);
+    return for_rows(services_, host_, "scatter", base.y, 8, [&](int y) {
+        for (int x = 0; x < base.x; ++x) {
+            const ivec2 at = representative({x, y}, state_.reduction, size);
+            const Pixel pixel = pixel_at(at.x, at.y);
+            const Spreading s =
+                spreading_source(medium_, calibrated_, table, pixel.density, pixel.share,
+                                 mean_of_square(color, {x, y}, state_.reduction, size), shown(at.x, at.y, pixel));
             store(radiance_, x, y, s.radiance);
             store_coverage(coverage_, x, y, s.coverage);
         }
@@ -107,8 +111,8 @@ brume_status CpuPasses::share(int level)
 {
     const LevelRows rows = level_rows(state_, level);
     const Texture finer = texture_of(level == 1 ? radiance_ : radiance_stack_),
-                  finer_coverage = texture_of(level == 1 ? coverage_ : coverage_stack_), ambient = texture_of(ambient_stack_),
-                  table = texture_of(table_);
+                  finer_coverage = texture_of(level == 1 ? coverage_ : coverage_stack_),
+                  ambient = texture_of(ambient_stack_), table = texture_of(table_);
     return for_rows(services_, host_, "downsample", rows.size.y, 8, [&](int y) {
         for (int x = 0; x < rows.size.x; ++x) {
             const Spreading s = spreading_texel(medium_, calibrated_, table, finer, finer_coverage, rows.finer_size,
@@ -116,7 +120,8 @@ brume_status CpuPasses::share(int level)
             store(radiance_stack_, x, rows.row + y, s.radiance);
             store_coverage(coverage_stack_, x, rows.row + y, s.coverage);
             store(ambient_stack_, x, rows.row + y,
-                  ambient_texel(calibrated_, finer, finer_coverage, ambient, rows.finer_size, rows.finer_row, ivec2(x, y), level));
+                  ambient_texel(calibrated_, finer, finer_coverage, ambient, rows.finer_size, rows.finer_row, ivec2(x, y),
+                                level));
         }
     });
 }
@@ -127,9 +132,29 @@ brume_status CpuPasses::smooth(int level)
     const Texture radiance = texture_of(radiance_stack_), coverage = texture_of(coverage_stack_), table = texture_of(table_);
     return for_rows(services_, host_, "smooth", rows.size.y, 8, [&](int y) {
         for (int x = 0; x < rows.size.x; ++x) {
-            const Spreading s = stayed(medium_, calibrated_, table, radiance, coverage, rows.size, rows.row, ivec2(x, y), level);
+            const Spreading s =
+                stayed(medium_, calibrated_, table, radiance, coverage, rows.size, rows.row, ivec2(x, y), level);
             store(smooth_radiance_, x, rows.row + y, s.radiance);
             store_coverage(smooth_coverage_, x, rows.row + y, s.coverage);
+        }
+    });
+}
+
+// Into the pyramid's level 0, which is not needed any more.
+brume_status CpuPasses::collect()
+{
+    const Texture radiance = texture_of(smooth_radiance_), coverage = texture_of(smooth_coverage_),
+                  table = texture_of(table_);
+    const ivec2 base = state_.base(), size(state_.width, state_.height);
+    const Pyramid pyramid{base, calibrated_.top};
+    return for_rows(services_, host_, "collect", base.y, 8, [&](int y) {
+        for (int x = 0; x < base.x; ++x) {
+            const ivec2 at = representative({x, y}, state_.reduction, size);
+            const Pixel pixel = pixel_at(at.x, at.y);
+            const Collected c = collected(medium_, calibrated_, table, radiance, coverage, pyramid,
+                                          pixel_centre(at.x, at.y) / float(state_.reduction), pixel.density);
+            store(radiance_, x, y, vec4(c.radiance, pixel.distance));
+            store_coverage(coverage_, x, y, c.coverage);
         }
     });
 }
@@ -137,16 +162,24 @@ brume_status CpuPasses::smooth(int level)
 brume_status CpuPasses::compose()
 {
     const Texture radiance = texture_of(smooth_radiance_), coverage = texture_of(smooth_coverage_),
+                  collected_radiance = texture_of(radiance_), collected_coverage = texture_of(coverage_),
                   ambient = texture_of(ambient_stack_), table = texture_of(table_);
-    const Pyramid pyramid{ivec2(state_.width, state_.height), calibrated_.top};
+    const Pyramid pyramid{state_.base(), calibrated_.top};
+    const ivec2 size(state_.width, state_.height);
     const float limit = frame_.scene->output_limit;
     return for_rows(services_, host_, "compose", state_.height, 8, [&](int y) {
         for (int x = 0; x < state_.width; ++x) {
             const vec4 color = load(color_, x, y);
             const Pixel pixel = pixel_at(x, y);
-            const vec3 added = pixel.emitted + collected(medium_, calibrated_, table, radiance, coverage, ambient, pyramid,
-                                                         pixel_centre(x, y), pixel.density, pixel.share, vec3(color),
-                                                         shown(x, y, pixel));
+            const vec2 position = pixel_centre(x, y) / float(state_.reduction);
+            const Collected levels =
+                state_.reduction > 1
+                    ? upsampled_collected(calibrated_, collected_radiance, collected_coverage, state_.reduction, size,
+                                          {x, y}, pixel.distance)
+                    : collected(medium_, calibrated_, table, radiance, coverage, pyramid, position, pixel.density);
+            const vec3 added =
+                pixel.emitted + scattered_light(medium_, calibrated_, table, ambient, pyramid, position, pixel.density,
+                                                pixel.share, vec3(color), shown(x, y, pixel), levels);
             store(output_, x, y, vec4(compose_radiance(vec3(color), pixel.transmittance, added, limit), color.w));
             if (transmittance_.data)
                 store(transmittance_, x, y, vec4(pixel.transmittance, 1.0f));

@@ -1,4 +1,4 @@
-// Kernel `calibrated` on GL: shaders/passes/multiscatter_{spread,share,smooth,compose}.comp.
+// Kernel `calibrated` on GL: shaders/passes/multiscatter_{spread,share,smooth,collect,compose}.comp.
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ class GlPasses : public CalibratedPasses {
 public:
     GlPasses(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
         : services_(services), host_(host), state_(state), frame_(frame), filter_(filter_of(state, *frame.scene)),
-          calibrated_(calibrated_of(state, *frame.scene))
+          calibrated_(calibrated_of(state, *frame.scene, state.tabled)), size_(state.width, state.height)
     {
     }
 
@@ -30,7 +30,7 @@ public:
                     {"table", state_.table, BRUME_ACCESS_FETCH, 0},
                     {"radiance", state_.radiance, BRUME_ACCESS_WRITE, 0},
                     {"coverage", state_.coverage, BRUME_ACCESS_WRITE, 0}},
-                   {}, ivec2(state_.width, state_.height));
+                   reduction(), state_.base());
     }
 
     brume_status share(int level) override
@@ -63,6 +63,20 @@ public:
                    {integer("level", level), integer("row", r.row)}, r.size);
     }
 
+    // Into the pyramid's level 0, which is not needed any more.
+    brume_status collect() override
+    {
+        return run("collect", state_.collect,
+                   {{"depth", frame_.depth, BRUME_ACCESS_FETCH, 0},
+                    {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
+                    {"table", state_.table, BRUME_ACCESS_FETCH, 0},
+                    {"radiance_stack", state_.smooth_radiance, BRUME_ACCESS_LINEAR, 0},
+                    {"coverage_stack", state_.smooth_coverage, BRUME_ACCESS_LINEAR, 0},
+                    {"radiance", state_.radiance, BRUME_ACCESS_WRITE, 0},
+                    {"coverage", state_.coverage, BRUME_ACCESS_WRITE, 0}},
+                   reduction(), state_.base());
+    }
+
     brume_status compose() override
     {
         const int32_t outputs = int32_t(frame_.outputs);
@@ -72,6 +86,8 @@ public:
                     {"gaussian_density", frame_.gaussian_density, BRUME_ACCESS_FETCH, 0},
                     {"lights", frame_.lights, BRUME_ACCESS_FETCH, 0},
                     {"table", state_.table, BRUME_ACCESS_FETCH, 0},
+                    {"radiance", state_.radiance, BRUME_ACCESS_FETCH, 0},
+                    {"coverage", state_.coverage, BRUME_ACCESS_FETCH, 0},
                     {"radiance_stack", state_.smooth_radiance, BRUME_ACCESS_LINEAR, 0},
                     {"coverage_stack", state_.smooth_coverage, BRUME_ACCESS_LINEAR, 0},
                     {"ambient_stack", state_.ambient_stack, BRUME_ACCESS_LINEAR, 0},
@@ -84,6 +100,11 @@ public:
     }
 
 private:
+    std::vector<brume_plugin_uniform> reduction() const
+    {
+        return {integer("reduction", state_.reduction), {"image_size", BRUME_UNIFORM_INT, 2, 1, 0, &size_}};
+    }
+
     brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
                      std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
     {
@@ -91,6 +112,7 @@ private:
         const auto filter = filter_uniforms(filter_);
         uniforms.insert(uniforms.end(), filter.begin(), filter.end());
         uniforms.insert(uniforms.end(), {integer("calibrated.top", calibrated_.top),
+                                         integer("calibrated.step", calibrated_.step),
                                          integer("calibrated.coverage", calibrated_.coverage),
                                          integer("calibrated.lights", calibrated_.lights),
                                          number("calibrated.first_place", calibrated_.first_place),
@@ -107,6 +129,7 @@ private:
     const brume_plugin_frame &frame_;
     Filter filter_;
     Calibrated calibrated_;
+    ivec2 size_;
 };
 
 }  // namespace
@@ -121,9 +144,12 @@ brume_status compile_calibrated(const brume_services &services, brume_host host,
 {
     const std::pair<const char *, brume_program *> programs[] = {{"multiscatter_spread.comp", &state.spread},
                                                                  {"multiscatter_share.comp", &state.share},
-                                                                 {"multiscatter_smooth.comp", &state.smooth}};
+                                                                 {"multiscatter_smooth.comp", &state.smooth},
+                                                                 {"multiscatter_collect.comp", &state.collect}};
     for (auto &[name, program] : programs)
-        if (brume_status s = services.compile(host, name, std::string(pass_text(name)).c_str(), "", program))
+        if (program == &state.collect && state.reduction == 1)
+            continue;
+        else if (brume_status s = services.compile(host, name, std::string(pass_text(name)).c_str(), "", program))
             return s;
     return BRUME_OK;
 }

@@ -17,8 +17,8 @@ struct Frame {
     Camera camera;
     Filter filter;
     float output_limit;
-    brume_plugin_pixels color{}, depth{}, gaussian_density{}, lights{}, output{}, radiance{}, radiance_stack{}, spread_stack{}, separated{},
-        separated_stack{}, transmittance{}, optical_depth{}, scattered{}, blur_radius{};
+    brume_plugin_pixels color{}, depth{}, gaussian_density{}, lights{}, output{}, radiance{}, radiance_stack{},
+        spread_stack{}, separated{}, separated_stack{}, transmittance{}, optical_depth{}, scattered{}, blur_radius{};
 
     // Maps an image that may be NULL.
     brume_status map(brume_plugin_image image, brume_plugin_pixels &out)
@@ -128,7 +128,8 @@ brume_status execute_cpu(const brume_services &services, brume_host host, const 
             host,
             state,
             medium_of(*frame.scene),
-            camera_of(*frame.scene), filter_of(state, *frame.scene),
+            camera_of(*frame.scene),
+            filter_of(state, *frame.scene),
             frame.scene->output_limit};
     const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
         {frame.color, &f.color},

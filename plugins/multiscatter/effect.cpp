@@ -72,7 +72,7 @@ brume_status Planner::need_camera(bool scatters)
 brume_status Planner::plan_levels(State &state)
 {
     int full = 0;
-    while ((1 << full) < std::max(state.width, state.height))
+    while ((1 << full) < std::max(state.base().x, state.base().y))
         ++full;
     const Parameters &p = state.parameters;
     state.top = p.levels > 0 ? std::min(p.levels, full) : full;
@@ -102,12 +102,17 @@ brume_status Planner::plan_pyramid(State &state)
     return s;
 }
 
+bool of_calibrated(std::string_view parameter)
+{
+    return parameter == "kernel" || parameter == "levels" || parameter == "lobes" || parameter == "resolution";
+}
+
 brume_status Planner::drop_settings_of_paper()
 {
     std::string names;
     for (size_t i = 0; i < parameter_table().size(); ++i) {
         const brume_parameter_info &p = parameter_table()[i];
-        if (request_.parameters[i] != p.default_number && p.name != std::string("kernel") && p.name != std::string("levels"))
+        if (request_.parameters[i] != p.default_number && !of_calibrated(p.name))
             names += (names.empty() ? "" : ", ") + std::string(p.name);
     }
     return names.empty() ? BRUME_OK : drop("settings", names + ": of kernel paper, which is not the one chosen");
@@ -129,23 +134,24 @@ brume_status Planner::plan_paper(State &state)
     double fetches = f.fetch == brume::maths_float::fetch_linear_bilinear  ? 2
                      : f.fetch == brume::maths_float::fetch_linear_bicubic ? 8
                                                                            : 16;
-    return check({image("radiance", state.width, state.height, 4, state.radiance),
-                  image("radiance levels", stack_w, stack_h, 4, state.radiance_stack),
-                  blurring ? image("spread levels", stack_w, stack_h, 1, state.spread_stack) : BRUME_OK,
-                  separation ? image("separated", state.width, state.height, 4, state.separated) : BRUME_OK,
-                  separation ? image("separated levels", stack_w, stack_h, 4, state.separated_stack) : BRUME_OK,
-                  run("scatter", "splits radiance into what arrives straight and what was scattered",
-                      16 + 4 + 16 + (separation ? 16 : 0), 120),
-                  run("downsample",
-                      "levels 1 to " + std::to_string(state.top) + " of the pyramid; each frame stops at that of its largest blur",
-                      (16 + 16 / 3.0) * (separation ? 2 : 1) * 1.33 + (blurring ? 4 / 3.0 : 0),
-                      taps / 3 * (20 + (blurring ? 4 : 0) + (separation ? 16 : 0))),
-                  blurring ? BRUME_OK : drop("density blurring", "switched off"),
-                  f.masking ? BRUME_OK : drop("masking", "switched off"),
-                  separation ? BRUME_OK : drop("separation", "switched off (the default)"),
-                  run("compose", "fetches each pixel's level and adds what arrives straight",
-                      16 + 4 + 16 + 16 * 1.33 + (blurring ? 4 : 0) + (separation ? 16 * 1.33 : 0),
-                      120 + fetches * (30 + (blurring ? 10 : 0) + (separation ? 30 : 0)))});
+    return check(
+        {image("radiance", state.width, state.height, 4, state.radiance),
+         image("radiance levels", stack_w, stack_h, 4, state.radiance_stack),
+         blurring ? image("spread levels", stack_w, stack_h, 1, state.spread_stack) : BRUME_OK,
+         separation ? image("separated", state.width, state.height, 4, state.separated) : BRUME_OK,
+         separation ? image("separated levels", stack_w, stack_h, 4, state.separated_stack) : BRUME_OK,
+         run("scatter", "splits radiance into what arrives straight and what was scattered",
+             16 + 4 + 16 + (separation ? 16 : 0), 120),
+         run("downsample",
+             "levels 1 to " + std::to_string(state.top) + " of the pyramid; each frame stops at that of its largest blur",
+             (16 + 16 / 3.0) * (separation ? 2 : 1) * 1.33 + (blurring ? 4 / 3.0 : 0),
+             taps / 3 * (20 + (blurring ? 4 : 0) + (separation ? 16 : 0))),
+         blurring ? BRUME_OK : drop("density blurring", "switched off"),
+         f.masking ? BRUME_OK : drop("masking", "switched off"),
+         separation ? BRUME_OK : drop("separation", "switched off (the default)"),
+         run("compose", "fetches each pixel's level and adds what arrives straight",
+             16 + 4 + 16 + 16 * 1.33 + (blurring ? 4 : 0) + (separation ? 16 * 1.33 : 0),
+             120 + fetches * (30 + (blurring ? 10 : 0) + (separation ? 30 : 0)))});
 }
 
 brume_status Planner::plan(std::unique_ptr<State> &out)
@@ -166,16 +172,19 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->parameters = read_parameters(request_.parameters);
     state->width = request_.width;
     state->height = request_.height;
+    state->reduction = state->parameters.kernel == Kernel::calibrated ? state->parameters.reduction : 1;
     state->beside_lights = request_.lights_scatter != 0;
     brume_status s = dense ? need_camera(scatters) : BRUME_OK;
     if (s)
         return s;
-    if (state->parameters.kernel == Kernel::reference) {
+    const Kernel kernel = state->parameters.kernel;
+    if (kernel == Kernel::reference || kernel == Kernel::paper_reference) {
         if (request_.backend != BRUME_BACKEND_CPU)
-            return services_.fail(
-                host_, BRUME_ERROR_UNSUPPORTED,
-                "kernel: reference; expected calibrated or paper on the GL backend (the reference is exact, in double, on the CPU)");
-        s = run("reference", "exact splatting in double", 52, 1e5);
+            return services_.fail(host_, BRUME_ERROR_UNSUPPORTED,
+                                  "kernel: reference or paper_reference; expected calibrated or paper on the GL backend "
+                                  "(the references are exact, in "
+                                  "double, on the CPU)");
+        s = run("reference", "every pixel's light to every other, in double", 52, 30.0 * request_.width * request_.height);
     } else if (!scatters) {
         s = drop("pyramid", "the medium does not scatter: nothing to blur");
         if (!s)
@@ -203,7 +212,8 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
     State &state = *static_cast<State *>(opaque);
     if (state.table)
         return execute_calibrated(*services, host, state, *frame);
-    if (state.parameters.kernel == Kernel::reference)
+    const Kernel kernel = state.parameters.kernel;
+    if (kernel == Kernel::reference || kernel == Kernel::paper_reference)
         return execute_reference(*services, host, state, *frame);
     return state.compose ? execute_gl(*services, host, state, *frame) : execute_cpu(*services, host, state, *frame);
 }

@@ -146,7 +146,11 @@ brume_status compile_programs(const brume_services &services, brume_host host, u
                         state.downsample))
             return s;
     }
-    return compile("multiscatter_compose.comp", define("PYRAMID", state.top == 0 ? 0 : state.table ? 2 : 1) + define("OUTPUTS", outputs & own_outputs),
+    return compile("multiscatter_compose.comp",
+                   define("PYRAMID", state.top == 0 ? 0
+                                     : state.table  ? 2
+                                                    : 1) +
+                       define("REDUCTION", uint32_t(state.reduction)) + define("OUTPUTS", outputs & own_outputs),
                    state.compose);
 }
 

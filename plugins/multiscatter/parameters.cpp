@@ -21,15 +21,20 @@ enum Index {
     separation_density,
     separation_density_width,
     separation_level,
+    lobes,
+    resolution,
     count
 };
 
 using namespace brume_parameters;
 
 constexpr brume_parameter_info table[count] = {
-    choice("kernel", "paper|reference|calibrated", 2,
-           "calibrated: light spreads as Monte Carlo says it does; paper: the hierarchical filter of Iser 2018, which the other "
-           "parameters but `levels` are of; reference: exact splatting of kernel paper in double, CPU only, minutes a frame"),
+    choice("kernel", "paper|reference|calibrated|paper_reference", 2,
+           "calibrated: light spreads as Monte Carlo says it does; paper: the hierarchical filter of Iser 2018, which the "
+           "other "
+           "parameters but `levels` are of; reference, paper_reference: what these two approximate, pixel against pixel in "
+           "double, CPU "
+           "only, minutes for small frames"),
     choice("kernel_size", "2x2|4x4|6x6", 1, "kernel between pyramid levels; larger is smoother and slower"),
     choice("fetch", "linear_bilinear|linear_bicubic|cubic_bicubic", 1,
            "interpolation across and within levels; linear_bilinear shows blocks in motion"),
@@ -47,6 +52,11 @@ constexpr brume_parameter_info table[count] = {
     number("separation_density", 0, 1e10, 50, "m", "density integral below which pixels are separated"),
     number("separation_density_width", 0, 1e10, 25, "m", "width of that threshold"),
     number("separation_level", 0, 1, 0.7, "", "level, as a fraction of K, from which separated light takes its deviation"),
+    choice(
+        "lobes", "every|second|third", 1,
+        "kernel calibrated: levels of the pyramid at which light stays; fewer are cheaper and follow the spread less well"),
+    choice("resolution", "full|half|quarter", 0,
+           "kernel calibrated: pixels each way at which light is scattered, brought to the others by their depth"),
 };
 
 }  // namespace
@@ -62,6 +72,8 @@ Parameters read_parameters(const double *values)
     p.kernel = Kernel(int(values[kernel]));
     p.taps = 2 + 2 * int(values[kernel_size]);
     p.levels = int(values[levels]);
+    p.step = 1 + int(values[lobes]);
+    p.reduction = 1 << int(values[resolution]);
     p.separation_fraction = values[separation_level];
     p.filter.fetch = int(values[fetch]);
     p.filter.masking = int(values[masking]);

@@ -13,7 +13,6 @@ namespace {
 using std::numbers::pi;
 using std::numbers::sqrt2;
 
-constexpr double first_depth = 1.0 / 512;  // tau at place 0; the last is 90
 // Of what arrives: nothing that is turned farther is told apart.
 constexpr double widest = 0.87;
 
@@ -51,8 +50,9 @@ double table_value(double asymmetry, double depth, double albedo, double angle)
     return std::exp(sum);
 }
 
-// Light between two angles: 2 pi gamma F(gamma) dgamma, apart from a factor.
-double between(const SpreadSource &s, double depth, double from, double to)
+}  // namespace
+
+double light_between(const SpreadSource &s, double depth, double from, double to)
 {
     to = std::min(to, widest);
     if (from >= to)
@@ -66,6 +66,8 @@ double between(const SpreadSource &s, double depth, double from, double to)
         sum += table_value(s.asymmetry, depth, albedo, angle * std::sqrt(ratio)) * angle * (ratio - 1);
     return sum + (lowest - from) * table_value(s.asymmetry, depth, albedo, lowest);
 }
+
+namespace {
 
 // Deviation of level k with its smoothing and fetch: 4^k (.77 / 3 + 1 + 1 / 6) pixels squared.
 double level_angle(const SpreadSource &s, int level)
@@ -86,18 +88,17 @@ double turned_beyond(double g, double from)
     return sum;
 }
 
-// The share of what a source at distance 1 scatters toward the camera, once and at an angle, that is scattered in front of
-// something at distance `ratio` there, relative to that in front of something as far as the source.
-double visible(double g, double angle, double ratio)
+}  // namespace
+
+double visible(double asymmetry, double angle, double ratio)
 {
+    const double g = std::clamp(asymmetry, 0.0, table_asymmetries[std::size(table_asymmetries) - 1]);
     auto behind = [&](double u) {
         return turned_beyond(g, std::clamp(pi - std::atan2(std::sin(angle), u - std::cos(angle)), angle, pi * (1 - 1e-9)));
     };
     const double all = turned_beyond(g, angle), level = all - behind(1);
     return level > 1e-12 * all ? std::clamp((all - behind(ratio)) / level, 0.0, 1.0) : 1;
 }
-
-}  // namespace
 
 double first_place(const SpreadSource &source)
 {
@@ -107,34 +108,38 @@ double first_place(const SpreadSource &source)
 std::vector<float> spread_values(const SpreadSource &source)
 {
     using namespace brume::maths_double;
-    const double g = std::clamp(source.asymmetry, 0.0, table_asymmetries[std::size(table_asymmetries) - 1]);
     std::vector<float> values(size_t((source.top + 1) * spread_row));
     std::vector<double> share(size_t(source.top + 1));
-    // The next finer level at which light stays: every second one but level 1.
-    auto finer = [](int level) { return level > 3 ? level - 2 : level == 0 ? -1 : 0; };
-    const double finest = level_angle(source, source.top < 2 ? 1 : 2 + source.top % 2) / sqrt2;
+    // The next finer level at which light stays.
+    auto finer = [&](int level) { return level >= 2 * source.step ? level - source.step : level == 0 ? -1 : 0; };
+    const int first = source.top < source.step ? source.top : source.step + source.top % source.step;
+    const double finest = level_angle(source, first) / sqrt2, apart = std::exp2(0.5 * source.step);
     for (int place = 0; place < spread_places; ++place) {
         const double depth = first_depth * std::exp2(0.5 * place);
         double all = 0;
         for (int k = source.top; k >= 0; k = finer(k)) {
             const double angle = level_angle(source, k);
             // The ends take what is finer and coarser than the pyramid. Nowhere nothing, so that quotients exist.
-            share[size_t(k)] = between(source, depth, k == 0 ? 0 : finer(k) == 0 ? angle / sqrt2 : angle / 2,
-                                       k == source.top ? widest : k == 0 ? finest : angle * 2);
+            share[size_t(k)] = light_between(source, depth,
+                                             k == 0          ? 0
+                                             : finer(k) == 0 ? angle / sqrt2
+                                                             : angle / apart,
+                                             k == source.top ? widest
+                                             : k == 0        ? finest
+                                                             : angle * apart);
             all += share[size_t(k)];
         }
         double coarser = 0;
         for (int k = source.top; k >= 0; k = finer(k)) {
             const double s = std::max(share[size_t(k)], 1e-5 * all);
-            values[size_t(k * spread_row + place)] =
-                float(k == source.top ? 1 : k > 0 ? s / coarser : s / (s + coarser));
+            values[size_t(k * spread_row + place)] = float(k == source.top ? 1 : k > 0 ? s / coarser : s / (s + coarser));
             coarser += s;
         }
     }
     for (int k = 0; k <= source.top; ++k)
         for (int i = 0; i < visible_places; ++i)
             values[size_t(k * spread_row + spread_places + i)] =
-                float(visible(g, std::min(level_angle(source, k), 1.0), double(i) / (visible_places - 1)));
+                float(visible(source.asymmetry, std::min(level_angle(source, k), 1.0), double(i) / (visible_places - 1)));
     return values;
 }
 

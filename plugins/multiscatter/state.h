@@ -15,7 +15,8 @@ struct State {
     Parameters parameters;
     int width = 0;
     int height = 0;
-    int top = 0;            // K; 0: no pyramid
+    int reduction = 1;  // kernel calibrated: side of the square of pixels that is one texel of the pyramid's level 0
+    int top = 0;        // K; 0: no pyramid
     bool beside_lights = false;  // another effect adds what the lights scatter once
 
     // Level 0 of a pyramid and, stacked, its levels 1 to K.
@@ -35,16 +36,19 @@ struct State {
     brume_plugin_image table = nullptr;
     SpreadSource tabled;  // what `table` was made of
 
+    brume::maths_float::ivec2 base() const { return brume::maths_float::reduced_size({width, height}, reduction); }
+
     // GL programs; NULL on the CPU.
     brume_program spread = nullptr;
     brume_program share = nullptr;
     brume_program smooth = nullptr;
+    brume_program collect = nullptr;  // NULL unless reduction > 1
     brume_program scatter = nullptr;
     brume_program downsample = nullptr;
     brume_program compose = nullptr;
 };
 
-// The passes of kernel `paper` on either backend, and of kernel `reference` on the CPU. They return the first failure.
+// The passes of kernel `paper` on either backend, and of the references on the CPU. They return the first failure.
 brume_status execute_cpu(const brume_services &services, brume_host host, const State &state,
                          const brume_plugin_frame &frame);
 brume_status execute_gl(const brume_services &services, brume_host host, const State &state,
@@ -53,8 +57,10 @@ brume_status execute_reference(const brume_services &services, brume_host host, 
                                const brume_plugin_frame &frame);
 
 // Kernel `calibrated`.
-brume_status plan_calibrated(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state);
-brume_status execute_calibrated(const brume_services &services, brume_host host, State &state, const brume_plugin_frame &frame);
+brume_status plan_calibrated(const brume_services &services, brume_host host, const brume_plugin_request &request,
+                             State &state);
+brume_status execute_calibrated(const brume_services &services, brume_host host, State &state,
+                                const brume_plugin_frame &frame);
 brume_status compile_calibrated(const brume_services &services, brume_host host, State &state);
 
 brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state);

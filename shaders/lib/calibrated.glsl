@@ -5,10 +5,14 @@
 // rest goes on to the coarser levels. A pixel then collects what all levels have at its place, as far as it was scattered in
 // front of what the pixel shows. What the medium scatters toward it from where the image has nothing comes from `ambient`.
 // The same sums over the shares alone (`coverage`) tell how much that is, so that a uniform image stays as it is (the white
-// furnace). Needs radiance.glsl, pyramid.glsl, data.glsl.
+// furnace). Needs radiance.glsl, pyramid.glsl, data.glsl, upsample.glsl.
+//
+// At reduced resolution all of it works on squares of pixels, of which one stands for the depth of all, but for what stays in
+// a pixel of its own light.
 
 struct Calibrated {
     int top;             // K, the coarsest level
+    int step;            // light stays at every step-th level, counted from the coarsest
     int coverage;        // channels that coverage has: 1 in grey media
     int lights;          // those whose single scattering another effect adds
     float first_place;   // log2 of P at place 0 of the table
@@ -28,7 +32,7 @@ const int spread_row = 49;
 // (What level 1 would hold is as good as not spread.)
 PURE bool collects(IN(Calibrated) f, int level)
 {
-    return level == f.top || (((f.top - level) & 1) == 0 && level > 1);
+    return level == f.top || ((f.top - level) % f.step == 0 && level >= f.step);
 }
 
 // Luminances of light that is as good as none and as good as infinite.
@@ -120,6 +124,16 @@ PURE Spreading spreading_source(IN(Medium) medium, IN(Calibrated) f, sampler2D t
     float place = spread_place(f, octaves);
     return passed_on(medium, share * shown * finite_or_zero(color), share, R(1.0) / reach_of(f, p),
                      R(1.0) - staying(table, 0, place));
+}
+
+// The light of a square of pixels.
+PURE vec3 mean_of_square(sampler2D color, ivec2 texel, int reduction, ivec2 size)
+{
+    vec3 sum = vec3(R(0.0));
+    for (int j = 0; j < reduction; ++j)
+        for (int i = 0; i < reduction; ++i)
+            sum += finite_or_zero(vec3(texelFetch(color, min(texel * reduction + ivec2(i, j), size - 1), 0)));
+    return sum / float(reduction * reduction);
 }
 
 // The share of a source's scattered light that is no other effect's: of listed lights the first scattering is.
@@ -224,25 +238,60 @@ PURE vec3 coverage_at(sampler2D stack, IN(Calibrated) f, IN(Region) region, vec2
     return vec3(fetch_linear(stack, region, position));
 }
 
-// All that the medium scatters toward the camera in front of what a pixel shows. share: its scattered_share().
-PURE vec3 collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack, sampler2D ambient_stack,
-                    IN(Pyramid) pyramid, vec2 pixel, float p, vec3 share, vec3 color, vec3 shown)
+// What the levels have for a pixel, as far as it is scattered in front of what the pixel shows.
+struct Collected {
+    vec3 radiance;
+    vec3 coverage;
+};
+
+// position: in pixels of the pyramid's level 0.
+PURE Collected collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack,
+                         IN(Pyramid) pyramid, vec2 position, float p)
 {
-    float octaves = octaves_of(p);
-    float place = spread_place(f, octaves);
     float reach = reach_of(f, p);
-    vec3 coverage = staying(table, 0, place) * arrived_share(medium, f, p, octaves, share);
-    vec3 sum = coverage * shown * finite_or_zero(color);
-    for (int k = f.top; k > min(1, f.top - 1); k -= 2) {
+    Collected sum = Collected(vec3(R(0.0)), vec3(R(0.0)));
+    for (int k = f.top; k >= min(f.step, f.top); k -= f.step) {
         Region region = level_region(pyramid, k);
-        vec2 position = level_position(pixel, k);
-        vec4 v = fetch_linear(stack, region, position);
-        vec3 covered = coverage_at(coverage_stack, f, region, position);
+        vec2 at = level_position(position, k);
+        vec4 v = fetch_linear(stack, region, at);
+        vec3 covered = coverage_at(coverage_stack, f, region, at);
         float ratio = reach * nearness_of(medium, v);
         float visible = ratio < R(1.0) ? visible_share(table, k, ratio) : R(1.0);
-        sum += visible * vec3(v);
-        coverage += visible * covered;
+        sum.radiance += visible * vec3(v);
+        sum.coverage += visible * covered;
     }
+    return sum;
+}
+
+// The same from where it was collected for a pixel of each square. distances: in the fourth channel of the radiance.
+PURE Collected upsampled_collected(IN(Calibrated) f, sampler2D radiance, sampler2D coverage, int reduction, ivec2 size,
+                                   ivec2 pixel, float distance)
+{
+    Corners c = corners_around(pixel, reduction, size);
+    vec4 around[4];
+    vec4 distances;
+    for (int i = 0; i < 4; ++i) {
+        around[i] = texelFetch(radiance, corner_texel(c, i), 0);
+        distances[i] = around[i].w;
+    }
+    vec4 weights = corner_weights(c, distances, distance);
+    Collected sum = Collected(vec3(R(0.0)), vec3(R(0.0)));
+    for (int i = 0; i < 4; ++i) {
+        sum.radiance += weights[i] * vec3(around[i]);
+        sum.coverage += weights[i] * coverage_of(f, texelFetch(coverage, corner_texel(c, i), 0));
+    }
+    return sum;
+}
+
+// All that the medium scatters toward the camera in front of what a pixel shows. position: as above; share: the pixel's
+// scattered_share(). The pixel's own light does not come from the levels.
+PURE vec3 scattered_light(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D ambient_stack, IN(Pyramid) pyramid,
+                          vec2 position, float p, vec3 share, vec3 color, vec3 shown, IN(Collected) levels)
+{
+    float octaves = octaves_of(p);
+    vec3 own = staying(table, 0, spread_place(f, octaves)) * arrived_share(medium, f, p, octaves, share);
+    vec3 coverage = own + levels.coverage;
     vec3 kept = min(share / max(coverage, vec3(R(1e-35))), vec3(R(1.0)));
-    return kept * sum + max(share - coverage, vec3(R(0.0))) * ambient_radiance(ambient_stack, pyramid, pixel);
+    return kept * (own * shown * finite_or_zero(color) + levels.radiance) +
+           max(share - coverage, vec3(R(0.0))) * ambient_radiance(ambient_stack, pyramid, position);
 }

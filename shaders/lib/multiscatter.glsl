@@ -25,6 +25,7 @@ struct Filter {
 // ---- sec. 4.1: what the medium does to one pixel
 
 struct Pixel {
+    float distance;      // [m]
     float density;       // P
     float spread;        // W [px]
     vec3 transmittance;
@@ -40,7 +41,7 @@ PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, IN(Filter) f, v
     float w = spread_pixels(medium, camera, p);
     if (f.placement != 0 && !ray.keep)
         w *= placement(density_moment(medium, ray.direction, ray.distance) + gaussians.y, p);
-    return Pixel(p, w, transmittance(medium, p), scattered_share(medium, p),
+    return Pixel(ray.distance, p, w, transmittance(medium, p), scattered_share(medium, p),
                  emitted(medium, p));
 }
 

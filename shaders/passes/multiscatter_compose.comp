@@ -1,4 +1,4 @@
-// PYRAMID (0 none, 1 kernel paper, 2 kernel calibrated) and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
+// PYRAMID (0 none, 1 kernel paper, 2 kernel calibrated), REDUCTION and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "data.glsl"
@@ -8,6 +8,7 @@
 #include "pyramid.glsl"
 #include "fetch.glsl"
 #include "multiscatter.glsl"
+#include "upsample.glsl"
 #include "calibrated.glsl"
 
 uniform Medium brume_medium;
@@ -19,6 +20,7 @@ uniform sampler2D lights;
 uniform sampler2D table;
 uniform sampler2D coverage_stack;
 uniform sampler2D ambient_stack;
+uniform sampler2D coverage;
 #endif
 uniform float brume_output_limit;
 uniform int outputs;  // those of this frame
@@ -51,8 +53,16 @@ void main()
 #if PYRAMID == 2
     vec3 shown = shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r,
                              pixel.density);
-    added += collected(brume_medium, calibrated, table, radiance_stack, coverage_stack, ambient_stack,
-                       Pyramid(brume_grid, calibrated.top), centre, pixel.density, pixel.share, source.rgb, shown);
+    Pyramid pyramid = Pyramid(reduced_size(brume_grid, REDUCTION), calibrated.top);
+    vec2 position = centre / float(REDUCTION);
+#if REDUCTION > 1
+    Collected levels = upsampled_collected(calibrated, radiance, coverage, REDUCTION, brume_grid, p, pixel.distance);
+#else
+    Collected levels =
+        collected(brume_medium, calibrated, table, radiance_stack, coverage_stack, pyramid, position, pixel.density);
+#endif
+    added += scattered_light(brume_medium, calibrated, table, ambient_stack, pyramid, position, pixel.density, pixel.share,
+                             source.rgb, shown, levels);
 #elif PYRAMID == 1
     added += gathered(radiance, radiance_stack, spread_stack, separated, separated_stack,
                       Pyramid(brume_grid, multiscatter.top), multiscatter, centre, pixel.spread);

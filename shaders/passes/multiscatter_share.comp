@@ -7,6 +7,7 @@
 #include "pyramid.glsl"
 #include "fetch.glsl"
 #include "multiscatter.glsl"
+#include "upsample.glsl"
 #include "calibrated.glsl"
 
 uniform Medium brume_medium;

@@ -7,12 +7,15 @@
 #include "pyramid.glsl"
 #include "fetch.glsl"
 #include "multiscatter.glsl"
+#include "upsample.glsl"
 #include "calibrated.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
 uniform Filter multiscatter;
 uniform Calibrated calibrated;
+uniform int reduction;
+uniform ivec2 image_size;
 uniform sampler2D color;
 uniform sampler2D depth;
 uniform sampler2D gaussian_density;
@@ -26,11 +29,13 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    vec2 centre = vec2(p) + 0.5;
-    float raw_depth = texelFetch(depth, p, 0).r;
+    ivec2 at = representative(p, reduction, image_size);
+    vec2 centre = vec2(at) + 0.5;
+    float raw_depth = texelFetch(depth, at, 0).r;
     Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, centre, raw_depth,
-                                  texelFetch(gaussian_density, p, 0).rg);
-    Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share, texelFetch(color, p, 0).rgb,
+                                  texelFetch(gaussian_density, at, 0).rg);
+    Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share,
+                                   mean_of_square(color, p, reduction, image_size),
                                    shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, raw_depth,
                                                pixel.density));
     imageStore(radiance, p, s.radiance);

@@ -103,7 +103,12 @@ struct Variant {
 
 std::vector<Variant> variants()
 {
-    std::vector<Variant> all{{"calibrated", "", false, "\"kernel\":\"calibrated\"", true}};
+    std::vector<Variant> all;
+    for (const std::string resolution : {"full", "half", "quarter"})
+        for (const std::string lobes : {"every", "second", "third"})
+            if (resolution == "full" || lobes == "second")
+                all.push_back({"calibrated, " + resolution + ", " + lobes, "", false,
+                               "\"resolution\":\"" + resolution + "\",\"lobes\":\"" + lobes + "\"", lobes == "second"});
     for (const std::string size : {"2x2", "4x4", "6x6"})
         for (const std::string fetch : {"linear_bilinear", "linear_bicubic", "cubic_bicubic"})
             for (bool separation : {false, true})

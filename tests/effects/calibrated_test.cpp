@@ -40,6 +40,14 @@ Picture random_lights(int width, int height, unsigned seed)
     return p;
 }
 
+// The kernel at its full and its reduced qualities.
+const char *qualities[] = {"",
+                           ",\"lobes\":\"every\"",
+                           ",\"lobes\":\"third\"",
+                           ",\"resolution\":\"half\"",
+                           ",\"resolution\":\"quarter\"",
+                           ",\"resolution\":\"quarter\",\"lobes\":\"third\""};
+
 double scattered_sum(const Result &r)
 {
     double sum = 0;
@@ -61,36 +69,44 @@ TEST_P(Calibrated, WhiteFurnace)
 {
     for (auto [w, h] : {std::pair(1, 1), {64, 48}, {37, 23}, {1, 200}, {130, 7}, {2, 2}})
         for (const char *medium : clear_media)
-            for (const char *levels : {"", ",\"levels\":3"}) {
-                const Picture color(w, h, 4, 3.5f);
-                const Worst worst =
-                    compare(run(context(), scene(medium, kernel + levels), color, random_depth(w, h, 3)).output, color, 1e-3);
-                EXPECT_LT(worst.error, 1e-5) << w << "x" << h << " " << medium << levels << " " << worst.describe();
-            }
+            for (const std::string levels : {"", ",\"levels\":3"})
+                for (const char *quality : qualities) {
+                    const Picture color(w, h, 4, 3.5f);
+                    const Worst worst = compare(
+                        run(context(), scene(medium, kernel + levels + quality), color, random_depth(w, h, 3)).output, color,
+                        1e-3);
+                    EXPECT_LT(worst.error, 1e-5)
+                        << w << "x" << h << " " << medium << levels << quality << " " << worst.describe();
+                }
 }
 
 // What arrives of a pixel's scattered light: T_tot - e^-tau, of which none is lost on the way over the pyramid.
 TEST_P(Calibrated, EnergyOfOnePixel)
 {
-    for (double tau : {0.01, 0.1, 1.0, 4.0}) {
-        const int w = 256, h = 256;
-        Picture color(w, h, 4, 0);
-        color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
-        const Result r = run(context(), scene("\"scattering\":" + std::to_string(tau / 20) + ",\"g\":0.9", kernel), color,
-                             Picture(w, h, 1, 20), {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
-        const double expected = 1000 * (1 / (1 + 0.45 * std::pow(0.1 * tau, 1.2)) - std::exp(-tau));
-        EXPECT_NEAR(scattered_sum(r) / expected, 1, 1e-3) << tau;
-    }
+    for (double tau : {0.01, 0.1, 1.0, 4.0})
+        for (const char *quality : qualities) {
+            const int w = 256, h = 256;
+            Picture color(w, h, 4, 0);
+            color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
+            const Result r = run(
+                context(), scene("\"scattering\":" + std::to_string(tau / 20) + ",\"g\":0.9", kernel + quality), color,
+                Picture(w, h, 1, 20), {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
+            const double expected = 1000 * (1 / (1 + 0.45 * std::pow(0.1 * tau, 1.2)) - std::exp(-tau));
+            EXPECT_NEAR(scattered_sum(r) / expected, 1, 1e-3) << tau << quality;
+        }
 }
 
 TEST_P(Calibrated, DensityTimesCrossSectionIsAllThatCounts)
 {
     const Picture color = random_lights(90, 50, 7), depth = random_depth(90, 50, 8);
-    const Picture one = run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7", kernel), color, depth).output;
+    const Picture one =
+        run(context(), scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7", kernel), color, depth).output;
     const Picture two = run(context(),
                             scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,"
-                                  "\"density\":[{\"type\":\"constant\",\"value\":2}]", kernel),
-                            color, depth).output;
+                                  "\"density\":[{\"type\":\"constant\",\"value\":2}]",
+                                  kernel),
+                            color, depth)
+                            .output;
     const Worst worst = compare(two, one, 1e-2);
     EXPECT_LT(worst.error, 1e-4) << worst.describe();
 }
@@ -151,7 +167,8 @@ TEST_P(Calibrated, FarLightsDoNotShineThroughNearSurfaces)
             depth.at(x, y)[0] = 0.01f;
     color.at(w / 2 + 3, h / 2)[0] = 1000;
     const Picture scattered =
-        run(context(), scene("\"scattering\":0.03,\"g\":0.8", kernel), color, depth, {{}, BRUME_OUTPUT_SCATTERED, 0}).scattered;
+        run(context(), scene("\"scattering\":0.03,\"g\":0.8", kernel), color, depth, {{}, BRUME_OUTPUT_SCATTERED, 0})
+            .scattered;
     EXPECT_GT(scattered.at(w / 2 + 8, h / 2)[0], 0.1);
     EXPECT_LT(scattered.at(w / 2 - 2, h / 2)[0], 1e-3 * scattered.at(w / 2 + 8, h / 2)[0]);
 }
@@ -175,23 +192,43 @@ TEST_P(Calibrated, Extremes)
                 for (int x = 0; x < w; ++x)
                     for (int c = 0; c < 3; ++c) {
                         const bool itself = x == 16 && y == 10 && c == 1;
-                        ASSERT_TRUE(itself || std::isfinite(output.at(x, y)[c])) << medium << " " << bad[i] << " " << x << " " << y;
+                        ASSERT_TRUE(itself || std::isfinite(output.at(x, y)[c]))
+                            << medium << " " << bad[i] << " " << x << " " << y;
                     }
         }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Calibrated, testing::Values("cpu", "gl"), [](auto &info) { return std::string(info.param); });
 
+// The reference shares the spread and the arrived fraction with the kernel, but neither pyramid nor tables by level.
+TEST(CalibratedReference, WhiteFurnaceAndEnergyOfOnePixel)
+{
+    const std::string reference = "\"kernel\":\"reference\"";
+    for (const char *medium : clear_media) {
+        const Picture color(37, 23, 4, 3.5f);
+        const Worst worst =
+            compare(run(cpu(), scene(medium, reference), color, random_depth(37, 23, 3)).output, color, 1e-3);
+        EXPECT_LT(worst.error, 1e-6) << medium << " " << worst.describe();
+    }
+    Picture color(48, 40, 4, 0);
+    color.at(3, 30)[0] = 1000;
+    const Result r = run(cpu(), scene("\"scattering\":0.05,\"g\":0.9", reference), color, Picture(48, 40, 1, 20),
+                         {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
+    EXPECT_NEAR(scattered_sum(r) / (1000 * (1 / (1 + 0.45 * std::pow(0.1, 1.2)) - std::exp(-1.0))), 1, 1e-5);
+}
+
 TEST(GpuAgainstCpu, KernelCalibrated)
 {
     double worst = 0;
     for (auto [w, h] : {std::pair(160, 90), {61, 37}, {3, 5}})
-        for (const char *medium : {clear_media[0], clear_media[1], clear_media[2], clear_media[3], dark_media[0], dark_media[1]}) {
-            const Picture color = random_lights(w, h, 2), depth = random_depth(w, h, 5);
-            const Worst found = compare(run(backend("gl"), scene(medium, kernel), color, depth).output,
-                                        run(cpu(), scene(medium, kernel), color, depth).output, 0.05);
-            worst = std::max(worst, found.error);
-            EXPECT_LT(found.error, 2e-3) << w << "x" << h << " " << medium << " " << found.describe();
-        }
+        for (const char *medium :
+             {clear_media[0], clear_media[1], clear_media[2], clear_media[3], dark_media[0], dark_media[1]})
+            for (const char *quality : qualities) {
+                const Picture color = random_lights(w, h, 2), depth = random_depth(w, h, 5);
+                const Worst found = compare(run(backend("gl"), scene(medium, kernel + quality), color, depth).output,
+                                            run(cpu(), scene(medium, kernel + quality), color, depth).output, 0.05);
+                worst = std::max(worst, found.error);
+                EXPECT_LT(found.error, 2e-3) << w << "x" << h << " " << medium << quality << " " << found.describe();
+            }
     printf("kernel calibrated, GL against CPU: worst %.2g\n", worst);
 }

@@ -170,7 +170,7 @@ TEST(Reference, OnePixelBecomesItsGaussian)
 {
     Picture color(161, 161, 4, 0);
     color.at(80, 80)[0] = 1;
-    auto r = run(cpu(), paper_scene("\"scattering\":0.005,\"g\":0.8", "\"kernel\":\"reference\""), color,
+    auto r = run(cpu(), paper_scene("\"scattering\":0.005,\"g\":0.8", "\"kernel\":\"paper_reference\""), color,
                  constant_depth(161, 161, 20), {ray_depth, BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0});
     double w = r.blur_radius.at(80, 80)[0];
     ASSERT_GT(w, 2);
@@ -187,7 +187,7 @@ TEST(Reference, SplattingIsLinearAndSymmetric)
     Picture a = random_color(33, 20, 1), b = random_color(33, 20, 2), both = a, depth = constant_depth(33, 20, 25);
     for (size_t i = 0; i < both.data.size(); ++i)
         both.data[i] = a.data[i] + b.data[i];
-    std::string s = paper_scene("\"scattering\":0.03,\"g\":0.9", "\"kernel\":\"reference\"");
+    std::string s = paper_scene("\"scattering\":0.03,\"g\":0.9", "\"kernel\":\"paper_reference\"");
     auto ra = run(cpu(), s, a, depth, {ray_depth, 0, 0}), rb = run(cpu(), s, b, depth, {ray_depth, 0, 0}),
          rab = run(cpu(), s, both, depth, {ray_depth, 0, 0});
     for (int y = 0; y < 20; ++y)
@@ -208,7 +208,7 @@ TEST(Reference, IsRefusedOnGlWithTheReason)
     if (!gl())
         throw std::runtime_error("no GL backend");
     try {
-        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"reference\""), Picture(4, 4, 4, 1), constant_depth(4, 4, 1));
+        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"paper_reference\""), Picture(4, 4, 4, 1), constant_depth(4, 4, 1));
         FAIL() << "expected a refusal";
     } catch (const Failure &failure) {
         EXPECT_EQ(failure.status, BRUME_ERROR_UNSUPPORTED);

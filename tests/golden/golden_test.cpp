@@ -50,7 +50,7 @@ const Golden goldens[] = {
      "\"scattering\":0.06,\"absorption\":[0.002,0.001,0],\"g\":0.3,\"density\":[{\"type\":\"exponential\",\"value\":1,"
      "\"falloff\":0.15,\"direction\":[0.1,0,1]}]",
      ""},
-    {"reference", "\"scattering\":0.02,\"absorption\":0.01,\"g\":0.9", "\"kernel\":\"reference\""},
+    {"reference", "\"scattering\":0.02,\"absorption\":0.01,\"g\":0.9", "\"kernel\":\"paper_reference\""},
     {"airlight_nodes", "\"scattering\":[0.3,0.3,0.31],\"droplet_diameter\":12," BANK, "\"max_error\":0.001",
      lantern_and_spot},
     {"airlight_nodes_half", "\"scattering\":[0.3,0.3,0.31],\"g\":0.5," BANK, "\"resolution\":\"half\"", lanterns},
