@@ -202,6 +202,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
                                      parameter_table().data(),
                                      plan,
                                      execute,
-                                     [](void *state) { delete static_cast<State *>(state); }};
+                                     [](void *state) { delete static_cast<State *>(state); },
+                                     offer};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

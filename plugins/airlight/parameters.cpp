@@ -30,4 +30,11 @@ Parameters read_parameters(const double *values)
     return {Tier(int(values[tier])), values[max_error], 1 << int(values[resolution])};
 }
 
+void choose(double *values, Tier chosen, double error, int reduction)
+{
+    values[tier] = double(chosen);
+    values[max_error] = error;
+    values[resolution] = reduction == 4 ? 2 : reduction - 1;
+}
+
 }  // namespace airlight

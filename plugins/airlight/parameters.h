@@ -16,4 +16,7 @@ struct Parameters {
 std::span<const brume_parameter_info> parameter_table();
 Parameters read_parameters(const double *values);
 
+// Sets those of a table's values.
+void choose(double *values, Tier tier, double max_error, int reduction);
+
 }  // namespace airlight

@@ -47,4 +47,7 @@ struct State {
     brume_program compose = nullptr;
 };
 
+// As brume_effect.
+uint32_t offer(const brume_plugin_request *request, uint32_t index, double *parameters, double *error);
+
 }  // namespace airlight

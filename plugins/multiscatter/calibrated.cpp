@@ -108,6 +108,11 @@ brume_status plan_calibrated(const brume_services &services, brume_host host, co
                                  texels * 20 / (1 << (2 * state.parameters.step - 2)))})
         if (s)
             return s;
+    if (channels == 1) {
+        const brume_plugin_entry grey{sizeof grey, 0, "coverage", "grey medium: one channel serves all three", 0, 0};
+        if (brume_status s = services.add_entry(host, &grey))
+            return s;
+    }
     if (state.reduction > 1) {
         if (brume_status s = entry("collect", collects, texels * (4 + texel * 4 / 3), texels * (60 + collecting)))
             return s;

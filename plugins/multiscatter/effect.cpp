@@ -12,6 +12,9 @@ namespace {
 
 using brume::maths_float::level_size;
 
+// Thinner media change no pixel by more than a ten thousandth: they are nothing.
+constexpr double least_optical_depth = 1e-4;
+
 class Planner {
 public:
     Planner(const brume_services &services, brume_host host, const brume_plugin_request &request)
@@ -38,6 +41,7 @@ private:
         return services_.create_image(host_, label, width, height, channels, &out);
     }
 
+    double largest_optical_depth() const;
     brume_status need_camera(bool scatters);
     brume_status plan_levels(State &state);
     brume_status plan_pyramid(State &state);
@@ -67,6 +71,22 @@ brume_status Planner::need_camera(bool scatters)
         return s;
     return need(request_.pose_matters != 0, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
                 "the medium's density changes with the position");
+}
+
+// Of all that a frame can show; infinite where that has no end.
+double Planner::largest_optical_depth() const
+{
+    const auto &m = request_.scene->medium;
+    const auto &c = request_.scene->camera;
+    if (m.term_count > 0 || request_.scene->gaussian_count > 0 || c.sky == BRUME_SKY_FOG)
+        return INFINITY;
+    double extinction = 0;
+    for (int i = 0; i < 3; ++i)
+        extinction = std::max(extinction, double(m.scattering[i]) + m.absorption[i]);
+    // Rays to the edges of the widest images are a few times as long as the planar distance.
+    const double farthest = std::max(c.depth_kind == BRUME_DEPTH_RAY ? c.far_distance : 10.0 * c.far_distance,
+                                     c.sky == BRUME_SKY_CLAMP ? double(c.sky_distance) : 0.0);
+    return extinction * m.constant * farthest;
 }
 
 brume_status Planner::plan_levels(State &state)
@@ -168,6 +188,12 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
             return drop("multiscatter", dense ? "the medium neither scatters, absorbs nor emits"
                                               : "the medium's density is zero everywhere");
     }
+    if (const double tau = largest_optical_depth(); tau < least_optical_depth && !emits && request_.outputs == 0) {
+        char reason[120];
+        snprintf(reason, sizeof reason, "the optical depth is at most %.1e, which is less than %.0e", tau,
+                 least_optical_depth);
+        return drop("multiscatter", reason);
+    }
     auto state = std::make_unique<State>();
     state->parameters = read_parameters(request_.parameters);
     state->width = request_.width;
@@ -243,6 +269,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
                                      parameter_table().data(),
                                      plan,
                                      execute,
-                                     [](void *state) { delete static_cast<State *>(state); }};
+                                     [](void *state) { delete static_cast<State *>(state); },
+                                     offer};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

@@ -89,4 +89,11 @@ Parameters read_parameters(const double *values)
     return p;
 }
 
+void choose(double *values, Kernel chosen, int step, int reduction)
+{
+    values[kernel] = double(chosen);
+    values[lobes] = step - 1;
+    values[resolution] = reduction == 4 ? 2 : reduction - 1;
+}
+
 }  // namespace multiscatter

@@ -23,4 +23,7 @@ struct Parameters {
 std::span<const brume_parameter_info> parameter_table();
 Parameters read_parameters(const double *values);
 
+// Sets those of a table's values that decide how kernel `calibrated` and its reference run.
+void choose(double *values, Kernel kernel, int step, int reduction);
+
 }  // namespace multiscatter

@@ -63,6 +63,9 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
                                 const brume_plugin_frame &frame);
 brume_status compile_calibrated(const brume_services &services, brume_host host, State &state);
 
+// As brume_effect.
+uint32_t offer(const brume_plugin_request *request, uint32_t index, double *parameters, double *error);
+
 brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state);
 
 // What of BRUME_OUTPUT_... this effect fills.

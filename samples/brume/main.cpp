@@ -24,6 +24,7 @@ int main(int argc, char **argv)
     add_run(app, chosen);
     add_plan(app, chosen);
     add_info(app, chosen);
+    add_calibrate(app, chosen);
     add_compare(app, chosen);
     add_effects(app, chosen);
     add_schema(app, chosen);

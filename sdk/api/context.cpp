@@ -1,5 +1,6 @@
 #include "api/handles.h"
 #include "api/structs.h"
+#include "core/calibration.h"
 
 using namespace brume;
 using namespace brume::api;
@@ -112,6 +113,28 @@ brume_status brume_context_get_info(brume_context context, brume_context_info *i
                      {0, backend.kind(), backend.threads(), 0, backend.host_bytes(), backend.device_bytes(),
                       context->context->device.c_str()},
                      "brume_context_info");
+    });
+}
+
+brume_status brume_context_calibrate(brume_context context)
+{
+    if (!context)
+        return barrier(nullptr, [] { expect(false, "context: NULL"); });
+    return barrier(context->context.get(), [&] { calibrate(context->context); });
+}
+
+size_t brume_context_calibration(brume_context context, char *buffer, size_t capacity)
+{
+    return copy_text(context ? context->context->rates.write(*context->context->backend) : "", buffer, capacity);
+}
+
+brume_status brume_context_set_calibration(brume_context context, const char *text, size_t length)
+{
+    if (!context)
+        return barrier(nullptr, [] { expect(false, "context: NULL"); });
+    return barrier(context->context.get(), [&] {
+        expect(text, "text: NULL");
+        context->context->rates.read(*context->context->backend, std::string(text, length));
     });
 }
 

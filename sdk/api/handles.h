@@ -32,6 +32,7 @@ struct brume_media_t {
 struct brume_plan_t {
     std::shared_ptr<brume::Context> context;
     std::unique_ptr<brume_host_t> plan;
+    std::string quality;
 };
 
 namespace brume::api {

@@ -5,6 +5,7 @@
 #include "api/handles.h"
 #include "api/structs.h"
 #include "core/effects.h"
+#include "core/quality.h"
 
 using namespace brume;
 using namespace brume::api;
@@ -108,8 +109,8 @@ brume_status brume_plan_create(brume_scene scene, const brume_format *format, br
         return barrier(nullptr, [] { expect(false, "scene: NULL"); });
     return barrier(scene->context.get(), [&] {
         expect(out, "out: NULL");
-        auto plan = std::make_unique<brume_host_t>(scene->context, scene->scene, read_format(format));
-        *out = new brume_plan_t{scene->context, std::move(plan)};
+        Chosen chosen = plan_with_quality(scene->context, scene->scene, read_format(format));
+        *out = new brume_plan_t{scene->context, std::move(chosen.plan), std::move(chosen.quality)};
     });
 }
 
@@ -128,7 +129,8 @@ brume_status brume_plan_get_info(brume_plan handle, brume_plan_info *info)
             predicted += entry.predicted_ms;
         write_struct(info,
                      {0, uint32_t(plan.entries().size()), plan.does_nothing() ? 1u : 0u, plan.camera_needs(),
-                      plan.camera_reason().c_str(), plan.image_bytes(), predicted},
+                      plan.camera_reason().c_str(), plan.image_bytes(), predicted, plan.predicted_error(),
+                      handle->quality.c_str()},
                      "brume_plan_info");
     });
 }

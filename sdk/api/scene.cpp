@@ -6,6 +6,7 @@
 #include "api/handles.h"
 #include "api/structs.h"
 #include "core/scene_check.h"
+#include "core/scene_ranges.h"
 #include "core/view.h"
 
 using namespace brume;
@@ -181,6 +182,42 @@ brume_status brume_scene_set_lights(brume_scene handle, const brume_light *given
         for (size_t i = 0; i < count; ++i)
             lights.push_back(read_light(element(given, i), "lights[" + std::to_string(i) + "]"));
         scene.lights = std::move(lights);
+    });
+}
+
+brume_status brume_scene_set_quality(brume_scene handle, const brume_quality *given)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        if (!given) {
+            scene.quality = {};
+            return;
+        }
+        const brume_quality quality = read_struct(
+            given, brume_quality BRUME_QUALITY_INIT, "brume_quality", &brume_quality::preset, &brume_quality::max_error,
+            &brume_quality::budget_ms, &brume_quality::transmittance, &brume_quality::detail);
+        expect(quality.preset <= BRUME_PRESET_REFERENCE, "brume_quality.preset: expected a BRUME_PRESET_...");
+        auto check = [](double value, const Range &range, const char *name) {
+            if (value != 0 && !range.contains(value))
+                throw Error(BRUME_ERROR_ARGUMENT,
+                            fmt::format("brume_quality.{}: {}; expected 0 or {}", name, value, range.describe()));
+        };
+        check(quality.max_error, ranges::max_error, "max_error");
+        check(quality.budget_ms, ranges::budget_ms, "budget_ms");
+        check(quality.transmittance, ranges::fraction, "transmittance");
+        check(quality.detail, ranges::detail, "detail");
+        if ((quality.preset != BRUME_PRESET_NONE) + (quality.max_error != 0) + (quality.budget_ms != 0) > 1)
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        fmt::format("brume_quality: preset {}, max_error {} and budget_ms {}; expected one of them",
+                                    quality.preset, quality.max_error, quality.budget_ms));
+        scene.quality = {quality.preset, quality.max_error, quality.budget_ms, quality.transmittance, quality.detail};
+    });
+}
+
+brume_status brume_scene_get_quality(brume_scene handle, brume_quality *out)
+{
+    return with_scene(handle, [&](Scene &scene) {
+        const Quality &q = scene.quality;
+        write_struct(out, {0, q.preset, q.max_error, q.budget_ms, q.transmittance, q.detail}, "brume_quality");
     });
 }
 

@@ -6,6 +6,7 @@
 #include "core/backend.h"
 #include "core/effects.h"
 #include "core/log.h"
+#include "core/rates.h"
 
 namespace brume {
 
@@ -14,6 +15,7 @@ struct Context {
     Log log;
     std::unique_ptr<Backend> backend;
     EffectRegistry effects;
+    Rates rates;
     std::string device;  // what the backend says of itself, kept for callers of the C API
 
 private:

@@ -29,6 +29,7 @@ struct Effect {
     uint32_t wanted = BRUME_WANTED_NEVER;
     std::vector<Parameter> parameters;
     const brume_effect *table = nullptr;
+    decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it
     std::shared_ptr<void> library;  // keeps the code loaded
 };
 

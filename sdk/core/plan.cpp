@@ -17,29 +17,28 @@ using namespace brume;
 namespace {
 
 const std::string host_name = "brume";  // of the host's own entries
+constexpr uint32_t most_offers = 64;
 
-// Nominal rates behind predicted_ms: one thread of a server CPU, a mid-range GPU, and Mesa's software GL. A calibration
-// per device would replace them.
-struct Rates {
-    double bytes_per_ms;
-    double operations_per_ms;
-};
+// What a rehearsal hands out in place of images and programs.
+Image *image_of_rehearsal()
+{
+    static Image image;
+    return &image;
+}
+Program *program_of_rehearsal()
+{
+    static Program program;
+    return &program;
+}
 
 bool on_llvmpipe(const Backend &backend)
 {
     return backend.device().find("llvmpipe") != std::string::npos;
 }
 
-Rates nominal_rates(const Backend &backend)
-{
-    if (backend.kind() == BRUME_BACKEND_CPU)
-        return {4e6 * std::min(backend.threads(), 4u), 6e5 * backend.threads()};
-    return on_llvmpipe(backend) ? Rates{2e6, 4e5} : Rates{3e8, 1e9};
-}
-
 std::string output_names(uint32_t outputs)
 {
-    const char *const names[] = {"transmittance", "optical depth",  "scattered",        "blur radius",
+    const char *const names[] = {"transmittance", "optical depth",  "scattered",          "blur radius",
                                  "airlight",      "airlight error", "airlight of a light"};
     std::string text;
     for (uint32_t i = 0; i < std::size(names); ++i)
@@ -78,8 +77,8 @@ std::unique_lock<std::mutex> hold_if_unsafe(const brume_effect *table)
 
 }  // namespace
 
-brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const brume_format &format)
-    : context_(std::move(context)), scene_(std::move(scene)), format_(format)
+brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const brume_format &format, Purpose purpose)
+    : context_(std::move(context)), scene_(std::move(scene)), format_(format), rehearsal_(purpose == Purpose::rehearsal)
 {
     context_->backend->invoke([&] {
         int32_t largest = context_->backend->largest_size();
@@ -89,7 +88,8 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
                                                      std::to_string(largest) + " a side");
         try {
             plan_effects();
-            timer_ = context_->backend->create_timer();
+            if (!rehearsal_)
+                timer_ = context_->backend->create_timer();
         } catch (...) {
             destroy_states();
             data_.clear();
@@ -139,22 +139,24 @@ bool brume_host_t::does_nothing() const
 
 bool brume_host_t::lights_scatter() const
 {
-    return std::any_of(effects_.begin(), effects_.end(), [](auto &planned) {
-        return planned.effect->wanted == BRUME_WANTED_WITH_LIGHTS;
-    });
+    return std::any_of(effects_.begin(), effects_.end(),
+                       [](auto &planned) { return planned.effect->wanted == BRUME_WANTED_WITH_LIGHTS; });
 }
 
 void brume_host_t::plan_effects()
 {
     const auto &registry = context_->effects;
     for (const EffectSettings &settings : scene_.effects)
-        effects_.push_back({&registry.find(settings.name), {}, nullptr, false});
+        effects_.push_back({.effect = &registry.find(settings.name)});
     for (const Effect &effect : registry.all()) {
         bool lit = !scene_.lights.empty() || !scene_.environment.coefficients.empty();
         bool needed = scene_.medium && !scene_.effects_named && effect.refusal.empty() &&
                       (effect.wanted == BRUME_WANTED_WITH_MEDIUM || (effect.wanted == BRUME_WANTED_WITH_LIGHTS && lit));
         if (needed && std::none_of(effects_.begin(), effects_.end(), [&](auto &p) { return p.effect == &effect; }))
-            effects_.push_back({&effect, {}, nullptr, false});
+            effects_.push_back({.effect = &effect});
+        if (!needed && !lit && scene_.medium && !scene_.effects_named && effect.refusal.empty() &&
+            effect.wanted == BRUME_WANTED_WITH_LIGHTS)
+            entries_.push_back({false, effect.name, effect.name, "no lights and no environment", 0, 0, 0});
     }
     std::sort(effects_.begin(), effects_.end(), [](const auto &a, const auto &b) {
         return std::pair(a.effect->order, a.effect->name) < std::pair(b.effect->order, b.effect->name);
@@ -193,14 +195,14 @@ void brume_host_t::plan_effects()
                                                  (entries_.empty() ? "" : " (" + entries_.back().reason + ")"));
 
     auto running = std::count_if(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
-    for (int i = 0; i < std::min<int>(int(running) - 1, 2); ++i) {
+    for (int i = 0; i < std::min<int>(int(running) - 1, 2) && !rehearsal_; ++i) {
         between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
         image_bytes_ += uint64_t(format_.width) * uint64_t(format_.height) * 16;
     }
-    Rates rates = nominal_rates(*context_->backend);
     for (auto &entry : entries_)
-        entry.predicted_ms =
-            std::max(double(entry.bytes) / rates.bytes_per_ms, double(entry.operations) / rates.operations_per_ms);
+        if (entry.runs)
+            entry.predicted_ms =
+                context_->rates.milliseconds(*context_->backend, entry.effect, entry.name, entry.operations, entry.bytes);
 }
 
 // Lights, environment and Gaussians as effects see them when planning: of Gaussians only whether there are any, since
@@ -208,8 +210,9 @@ void brume_host_t::plan_effects()
 void brume_host_t::plan_content(const View &view, brume_plugin_scene &scene)
 {
     if (!scene_.environment.file.empty() && scene_.environment.coefficients.empty())
-        throw Error(BRUME_ERROR_SCENE, "environment.file: " + scene_.environment.file +
-                                           " is not read by the library; expected brume_scene_set_environment to have been called");
+        throw Error(BRUME_ERROR_SCENE,
+                    "environment.file: " + scene_.environment.file +
+                        " is not read by the library; expected brume_scene_set_environment to have been called");
     for (auto &c : scene_.environment.coefficients)
         environment_.push_back({float(c[0]), float(c[1]), float(c[2])});
     evaluate_lights(scene_, 0, view.camera_to_world, lights_);
@@ -267,6 +270,8 @@ void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene 
     request.pose_matters = pose_matters(scene_) ? 1 : 0;
     request.attenuated = attenuated ? 1 : 0;
     request.lights_scatter = lights_scatter() ? 1 : 0;
+    request.transmittance = scene_.quality.transmittance;
+    request.detail = scene_.quality.detail;
     current_ = &planned;
     failure_.clear();
     size_t first = entries_.size();
@@ -287,7 +292,43 @@ void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene 
     if (entries_.size() == first)
         throw Error(BRUME_ERROR_PLUGIN,
                     planned.effect->name + ": plan added no entry; expected one that runs or says why nothing does");
+    if (planned.runs && planned.effect->offer)
+        take_offers(planned, request);
     current_ = nullptr;
+}
+
+void brume_host_t::take_offers(PlannedEffect &planned, brume_plugin_request request)
+{
+    for (uint32_t i = 0; i < most_offers; ++i) {
+        Offer offer{planned.parameters, 0};
+        request.parameters = planned.parameters.data();
+        try {
+            if (!planned.effect->offer(&request, i, offer.parameters.data(), &offer.error))
+                return;
+        } catch (...) {
+            throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in offer");
+        }
+        if (!std::isfinite(offer.error) || offer.error < 0)
+            throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": offer " + std::to_string(i) +
+                                                " predicts an error of " + std::to_string(offer.error) +
+                                                "; expected a finite one of 0 or more");
+        planned.offers.push_back(std::move(offer));
+    }
+}
+
+double brume_host_t::predicted_error() const
+{
+    double squares = 0;
+    for (const PlannedEffect &planned : effects_) {
+        if (!planned.runs)
+            continue;
+        auto at = std::find_if(planned.offers.begin(), planned.offers.end(),
+                               [&](const Offer &offer) { return offer.parameters == planned.parameters; });
+        if (at == planned.offers.end())
+            return -1;
+        squares += at->error * at->error;
+    }
+    return std::sqrt(squares);
 }
 
 void brume_host_t::effect_failed(const Effect &effect, const char *callback, brume_status status) const
@@ -460,13 +501,27 @@ void brume_host_t::begin_extras(const brume_frame &frame, std::vector<std::share
         seen.outputs |= extra.output;
         Image *image = extras.back().get();
         switch (extra.output) {
-        case BRUME_OUTPUT_TRANSMITTANCE: seen.transmittance = image; break;
-        case BRUME_OUTPUT_OPTICAL_DEPTH: seen.optical_depth = image; break;
-        case BRUME_OUTPUT_SCATTERED: seen.scattered = image; break;
-        case BRUME_OUTPUT_BLUR_RADIUS: seen.blur_radius = image; break;
-        case BRUME_OUTPUT_AIRLIGHT: seen.airlight = image; break;
-        case BRUME_OUTPUT_AIRLIGHT_ERROR: seen.airlight_error = image; break;
-        case BRUME_OUTPUT_LIGHT_AIRLIGHT: light_airlight_[extra.light] = image; break;
+        case BRUME_OUTPUT_TRANSMITTANCE:
+            seen.transmittance = image;
+            break;
+        case BRUME_OUTPUT_OPTICAL_DEPTH:
+            seen.optical_depth = image;
+            break;
+        case BRUME_OUTPUT_SCATTERED:
+            seen.scattered = image;
+            break;
+        case BRUME_OUTPUT_BLUR_RADIUS:
+            seen.blur_radius = image;
+            break;
+        case BRUME_OUTPUT_AIRLIGHT:
+            seen.airlight = image;
+            break;
+        case BRUME_OUTPUT_AIRLIGHT_ERROR:
+            seen.airlight_error = image;
+            break;
+        case BRUME_OUTPUT_LIGHT_AIRLIGHT:
+            light_airlight_[extra.light] = image;
+            break;
         }
     }
     seen.light_airlight = light_airlight_.data();
@@ -489,8 +544,8 @@ void brume_host_t::add_entry(const brume_plugin_entry &entry)
 {
     if (!entry.name || !entry.reason)
         throw Error(BRUME_ERROR_ARGUMENT, "add_entry: name or reason is NULL");
-    entries_.push_back({entry.runs != 0, current_ ? current_->effect->name : host_name, entry.name, entry.reason, entry.bytes,
-                        entry.operations, 0});
+    entries_.push_back({entry.runs != 0, current_ ? current_->effect->name : host_name, entry.name, entry.reason,
+                        entry.bytes, entry.operations, 0});
 }
 
 void brume_host_t::need_camera(uint32_t needs, const std::string &reason)
@@ -508,6 +563,8 @@ brume_plugin_image brume_host_t::create_image(int32_t width, int32_t height, int
         throw Error(BRUME_ERROR_ARGUMENT, std::to_string(width) + " x " + std::to_string(height) + " x " +
                                               std::to_string(channels) + "; expected sides from 1 to " +
                                               std::to_string(largest) + " and 1, 2 or 4 channels");
+    if (rehearsal_)
+        return image_of_rehearsal();
     images_.push_back(context_->backend->create_image(width, height, channels, BRUME_PIXEL_F32));
     image_bytes_ += uint64_t(width) * uint64_t(height) * uint64_t(channels) * 4;
     return images_.back().get();
@@ -515,6 +572,8 @@ brume_plugin_image brume_host_t::create_image(int32_t width, int32_t height, int
 
 brume_program brume_host_t::compile(const char *name, const char *source, const char *defines)
 {
+    if (rehearsal_)
+        return program_of_rehearsal();
     programs_.push_back(context_->backend->compile(name, source, defines));
     return programs_.back().get();
 }
@@ -551,6 +610,8 @@ brume_plugin_image brume_host_t::upload(uint32_t slot, int32_t channels, const f
                                               " channels, " + std::to_string(texels) +
                                               " texels; expected a slot from 0 to 63, 1 or 4 channels and at most " +
                                               std::to_string(most) + " texels");
+    if (rehearsal_)
+        return image_of_rehearsal();
     Data &data = data_[{current_, slot}];
     data.image.reset();
     // Powers of two, so that the pool serves the next frame's slightly longer list with the same image.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/context.h"
+#include "core/offer.h"
 #include "core/scene_images.h"
 #include "core/view.h"
 #include "core/scene.h"
@@ -22,17 +23,22 @@ struct PlanEntry {
 // One effect's part of a plan.
 struct PlannedEffect {
     const Effect *effect = nullptr;
-    std::vector<double> parameters;
+    std::vector<double> parameters{};
     void *state = nullptr;
     bool runs = false;
+    std::vector<Offer> offers{};
 };
+
+// Rehearsals are planned for their entries and offers: they hold no images or programs and cannot be executed.
+enum class Purpose { execution, rehearsal };
 
 }  // namespace brume
 
 // What must be done for one scene and one image format. It is also the host that effects talk to.
 struct brume_host_t {
 public:
-    brume_host_t(std::shared_ptr<brume::Context> context, brume::Scene scene, const brume_format &format);
+    brume_host_t(std::shared_ptr<brume::Context> context, brume::Scene scene, const brume_format &format,
+                 brume::Purpose purpose = brume::Purpose::execution);
     ~brume_host_t();
     brume_host_t(const brume_host_t &) = delete;
     brume_host_t &operator=(const brume_host_t &) = delete;
@@ -40,6 +46,9 @@ public:
     void execute(const brume_frame &frame);
 
     const std::vector<brume::PlanEntry> &entries() const { return entries_; }
+    const std::vector<brume::PlannedEffect> &effects() const { return effects_; }
+    // By the offers that the parameters are; < 0 where an effect's are none.
+    double predicted_error() const;
     bool does_nothing() const;
     uint32_t camera_needs() const { return camera_needs_; }
     const std::string &camera_reason() const { return camera_reason_; }
@@ -73,6 +82,7 @@ private:
     void plan_effects();
     void destroy_states() noexcept;
     void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene, bool attenuated);
+    void take_offers(brume::PlannedEffect &planned, brume_plugin_request request);
     void run_effects(const brume_frame &frame, const brume_plugin_scene &scene);
     void begin_extras(const brume_frame &frame, std::vector<std::shared_ptr<brume::Image>> &extras, brume_plugin_frame &seen);
     bool lights_scatter() const;
@@ -105,4 +115,5 @@ private:
     const brume_plugin_scene *current_scene_ = nullptr;
     std::string failure_;
     bool warned_ = false;
+    const bool rehearsal_;
 };

@@ -183,6 +183,7 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.wanted = table.wanted;
     effect.parameters = copy_parameters(table);
     effect.table = source;
+    effect.offer = table.offer;
 }
 
 std::shared_ptr<void> open_library(const std::string &file)

@@ -96,6 +96,14 @@ struct Camera {
     std::optional<std::array<Number, 16>> camera_to_world;  // row-major
 };
 
+// As brume_quality.
+struct Quality {
+    uint32_t preset = BRUME_PRESET_NONE;
+    double max_error = 0, budget_ms = 0, transmittance = 0, detail = 0;
+
+    bool asked() const { return preset != BRUME_PRESET_NONE || max_error > 0 || budget_ms > 0; }
+};
+
 struct EffectSettings {
     std::string name;
     std::map<std::string, double> parameters;  // only those set; choices by index
@@ -109,10 +117,14 @@ struct Scene {
     std::vector<Light> lights;
     Environment environment;
     std::vector<EffectSettings> effects;  // those that the file or a call set
+    Quality quality;
     bool effects_named = false;           // the file names its effects: what the content needs is not added to them
 
     bool animated() const;
 };
+
+// From BRUME_PRESET_DRAFT on.
+inline constexpr const char *preset_names[] = {"draft", "standard", "final", "reference"};
 
 class EffectRegistry;
 

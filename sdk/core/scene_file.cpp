@@ -119,14 +119,49 @@ EffectSettings read_effect(const JsonNode &effects, const JsonMember &member, co
     return settings;
 }
 
+uint32_t read_preset(const JsonNode &node)
+{
+    const std::string what = "one of draft, standard, final, reference";
+    const std::string &name = node.string(what);
+    for (uint32_t i = 0; i < std::size(preset_names); ++i)
+        if (name == preset_names[i])
+            return BRUME_PRESET_DRAFT + i;
+    node.expected(what);
+}
+
+// A preset's name by itself, or an object.
+Quality read_quality(const JsonNode &node)
+{
+    Quality quality;
+    if (node.value().as<std::string>()) {
+        quality.preset = read_preset(node);
+        return quality;
+    }
+    node.allow_only({"preset", "max_error", "budget_ms", "transmittance", "detail"});
+    node.refuse_both("preset", "max_error");
+    node.refuse_both("preset", "budget_ms");
+    node.refuse_both("max_error", "budget_ms");
+    if (const auto preset = node.find("preset"))
+        quality.preset = read_preset(*preset);
+    if (const auto error = node.find("max_error"))
+        quality.max_error = read_constant(*error, ranges::max_error);
+    if (const auto budget = node.find("budget_ms"))
+        quality.budget_ms = read_constant(*budget, ranges::budget_ms);
+    if (const auto transmittance = node.find("transmittance"))
+        quality.transmittance = read_constant(*transmittance, ranges::fraction);
+    if (const auto detail = node.find("detail"))
+        quality.detail = read_constant(*detail, ranges::detail);
+    if (!quality.asked())
+        node.fail("nothing is asked; expected a preset, max_error or budget_ms");
+    return quality;
+}
+
 Scene read_scene(const JsonNode &root, const std::filesystem::path &folder, const EffectRegistry &registry)
 {
     root.allow_only({"brume", "metres_per_unit", "camera", "medium", "lights", "environment", "effects", "quality"});
     const std::string version = "1, the version of this file format";
     if (root.get("brume").number(version) != 1.0)
         root.get("brume").expected(version);
-    if (const auto quality = root.find("quality"))
-        quality->fail("this version does not choose by quality; expected the parameters under \"effects\"");
 
     Scene scene;
     if (const auto metres = root.find("metres_per_unit"))
@@ -143,6 +178,8 @@ Scene read_scene(const JsonNode &root, const std::filesystem::path &folder, cons
         for (const JsonMember &member : effects->object())
             scene.effects.push_back(read_effect(*effects, member, registry));
     scene.effects_named = !scene.effects.empty();
+    if (const auto quality = root.find("quality"))
+        scene.quality = read_quality(*quality);
     return scene;
 }
 

@@ -180,6 +180,23 @@ Json environment()
              Json::array({object_of({{"sh", coefficients}}, {"sh"}), object_of({{"file", file}, {"up", up}}, {"file"})})}};
 }
 
+Json quality()
+{
+    const Json preset{{"enum", std::vector<std::string>(std::begin(preset_names), std::end(preset_names))}};
+    const Json transmittance =
+        described(constant(ranges::fraction), "Mean of what frames show; 0, the default: taken for dense");
+    const Json detail =
+        described(constant(ranges::detail), "Of frames against themselves blurred 9 x 9; 0, the default: taken for 5");
+    auto asking = [&](const char *name, const Json &schema) {
+        return object_of({{name, schema}, {"transmittance", transmittance}, {"detail", detail}}, {name});
+    };
+    return {{"description", "Largest error or time of a frame, by which plans choose parameters that `effects` leave open"},
+            {"oneOf", Json::array({preset, asking("preset", preset),
+                                   asking("max_error",
+                                          described(constant(ranges::max_error), "Root of relMSE against the references")),
+                                   asking("budget_ms", described(constant(ranges::budget_ms), "Milliseconds a frame"))})}};
+}
+
 Json parameter_schema(const Parameter &parameter)
 {
     Json schema;
@@ -228,7 +245,8 @@ std::string scene_schema(const EffectRegistry &effects)
                    {"medium", medium()},
                    {"lights", lights()},
                    {"environment", environment()},
-                   {"effects", effects_schema(effects)}},
+                   {"effects", effects_schema(effects)},
+                   {"quality", quality()}},
                   {"brume"});
     schema["$defs"] = definitions();
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";

@@ -131,7 +131,14 @@ FIELD(brume_format, sky_distance, 64, 8);
 FIELD(brume_format, nonpositive, 72, 4);
 FIELD(brume_format, reserved, 76, 4);
 
-SIZE(brume_plan_info, 40);
+SIZE(brume_quality, 40);
+FIELD(brume_quality, struct_size, 0, 4);
+FIELD(brume_quality, preset, 4, 4);
+FIELD(brume_quality, max_error, 8, 8);
+FIELD(brume_quality, budget_ms, 16, 8);
+FIELD(brume_quality, transmittance, 24, 8);
+FIELD(brume_quality, detail, 32, 8);
+SIZE(brume_plan_info, 56);
 FIELD(brume_plan_info, struct_size, 0, 4);
 FIELD(brume_plan_info, entry_count, 4, 4);
 FIELD(brume_plan_info, does_nothing, 8, 4);
@@ -139,6 +146,8 @@ FIELD(brume_plan_info, camera_needs, 12, 4);
 FIELD(brume_plan_info, camera_reason, 16, 8);
 FIELD(brume_plan_info, image_bytes, 24, 8);
 FIELD(brume_plan_info, predicted_ms, 32, 8);
+FIELD(brume_plan_info, predicted_error, 40, 8);
+FIELD(brume_plan_info, quality, 48, 8);
 
 SIZE(brume_plan_entry, 64);
 FIELD(brume_plan_entry, struct_size, 0, 4);

@@ -41,11 +41,13 @@ FIELD(brume_plugin_scene, lights, 480);
 FIELD(brume_plugin_scene, environment, 496);
 FIELD(brume_plugin_scene, position, 504);
 FIELD(brume_plugin_scene, revision, 528);
-SIZE(brume_plugin_request, 56);
+SIZE(brume_plugin_request, 72);
 FIELD(brume_plugin_request, parameters, 24);
 FIELD(brume_plugin_request, scene, 32);
 FIELD(brume_plugin_request, animated, 40);
 FIELD(brume_plugin_request, attenuated, 48);
+FIELD(brume_plugin_request, transmittance, 56);
+FIELD(brume_plugin_request, detail, 64);
 SIZE(brume_plugin_entry, 40);
 SIZE(brume_plugin_frame, 136);
 FIELD(brume_plugin_frame, color, 16);
@@ -62,11 +64,12 @@ SIZE(brume_services, 80);
 FIELD(brume_services, fail, 8);
 FIELD(brume_services, pixels, 64);
 FIELD(brume_services, upload, 72);
-SIZE(brume_effect, 80);
+SIZE(brume_effect, 88);
 FIELD(brume_effect, name, 8);
 FIELD(brume_effect, order, 24);
 FIELD(brume_effect, parameters, 48);
 FIELD(brume_effect, destroy, 72);
+FIELD(brume_effect, offer, 80);
 
 #endif
 

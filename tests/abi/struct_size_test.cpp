@@ -84,6 +84,8 @@ TEST_F(StructSize, OfInputs)
     });
     check_sizes<brume_medium>(context.get(), BRUME_MEDIUM_INIT,
                               [&](auto *given) { return brume_scene_set_medium(scene.get(), given); });
+    check_sizes<brume_quality>(context.get(), BRUME_QUALITY_INIT,
+                               [&](auto *given) { return brume_scene_set_quality(scene.get(), given); });
     check_sizes<brume_density_term>(context.get(), BRUME_DENSITY_TERM_INIT, [&](auto *given) {
         brume_medium medium = BRUME_MEDIUM_INIT;
         medium.term_count = 1;

@@ -107,6 +107,20 @@ TEST(SceneFile, ReadsEverything)
     EXPECT_EQ(scene.effects[0].parameters,
               (std::map<std::string, double>{{"strength", 2.0}, {"levels", 3.0}, {"masking", 0.0}, {"kernel", 0.0}}));
     EXPECT_TRUE(scene.animated());
+    EXPECT_FALSE(scene.quality.asked());
+}
+
+TEST(SceneFile, QualityIsAPresetAnErrorOrATime)
+{
+    auto quality = [](const std::string &text) { return parse("{\"brume\": 1, \"quality\": " + text + "}").quality; };
+    EXPECT_EQ(quality("\"draft\"").preset, BRUME_PRESET_DRAFT);
+    EXPECT_EQ(quality("{\"preset\": \"reference\"}").preset, BRUME_PRESET_REFERENCE);
+    EXPECT_EQ(quality("{\"budget_ms\": 8}").budget_ms, 8.0);
+    const Quality asked = quality("{\"max_error\": 0.02, \"transmittance\": 0.5, \"detail\": 2}");
+    EXPECT_EQ(asked.preset, BRUME_PRESET_NONE);
+    EXPECT_EQ(asked.max_error, 0.02);
+    EXPECT_EQ(asked.transmittance, 0.5);
+    EXPECT_EQ(asked.detail, 2.0);
 }
 
 TEST(SceneFile, DefaultsAreThoseOfAnEmptyScene)
@@ -248,8 +262,13 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("effects": {"well_behaved": {"strength": {"keys": [[1, 1]]}}})",
          "2:42: effects.well_behaved.strength: an object; expected a number from 0 to 10; effects' parameters have no "
          "keys"},
-        {R"("quality": {"max_error": 0.02})",
-         R"(2:12: quality: this version does not choose by quality; expected the parameters under "effects")"},
+        {R"("quality": {})", R"(2:12: quality: nothing is asked; expected a preset, max_error or budget_ms)"},
+        {R"("quality": {"preset": "draft", "budget_ms": 5})",
+         R"(2:32: "preset" beside "budget_ms"; expected one of them: they say the same thing)"},
+        {R"("quality": "fine")", R"(2:12: quality: "fine"; expected one of draft, standard, final, reference)"},
+        {R"("quality": {"max_error": 0})", R"(2:26: quality.max_error: 0; expected a number from 1e-06 to 10)"},
+        {R"("quality": {"max_eror": 1})",
+         R"(2:13: unknown key "max_eror"; did you mean "max_error"?)"},
         {R"("lights": [], "lights": [])", R"(2:15: duplicate key "lights")"},
         {R"("medium": {"g": NaN})", "2:17: syntax error while parsing value - invalid literal"},
         {R"("medium": {"g": 1e999})", "2:21: a number beyond the range of a double"},

@@ -14,6 +14,7 @@ using Action = std::function<int()>;
 void add_run(CLI::App &app, Action &chosen);
 void add_plan(CLI::App &app, Action &chosen);
 void add_info(CLI::App &app, Action &chosen);
+void add_calibrate(CLI::App &app, Action &chosen);
 void add_compare(CLI::App &app, Action &chosen);
 void add_effects(CLI::App &app, Action &chosen);
 void add_schema(CLI::App &app, Action &chosen);

@@ -35,6 +35,7 @@ int plan(const PlanOptions &options)
     const OpenFrame open = open_frame(first, options.fog.picture, {});
     const ColorManager colors;
     Fogger fogger(options.fog);
+    fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth);
     const brume_plan plan =
         fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.header(open.color.part)));
 
@@ -54,21 +55,24 @@ int plan(const PlanOptions &options)
                            {"operations", e.operations},
                            {"predicted_ms", e.predicted_ms}});
     }
-    const ordered_json out{{"scene", options.fog.scene},
-                           {"lights", fogger.scene_info().light_count},
-                           {"gaussians", fogger.scene_info().gaussian_count},
-                           {"environment", fogger.scene_info().environment_count},
-                           {"input", first.input.string()},
-                           {"backend", backend_name(device.backend)},
-                           {"device", device.device},
-                           {"color", open.color.label()},
-                           {"depth", open.depth.channel},
-                           {"does_nothing", info.does_nothing != 0},
-                           {"needs_of_camera", camera_needs(info.camera_needs)},
-                           {"camera_reason", info.camera_reason},
-                           {"image_bytes", info.image_bytes},
-                           {"predicted_ms", info.predicted_ms},
-                           {"entries", entries}};
+    const ordered_json out{
+        {"scene", options.fog.scene},
+        {"lights", fogger.scene_info().light_count},
+        {"gaussians", fogger.scene_info().gaussian_count},
+        {"environment", fogger.scene_info().environment_count},
+        {"input", first.input.string()},
+        {"backend", backend_name(device.backend)},
+        {"device", device.device},
+        {"color", open.color.label()},
+        {"depth", open.depth.channel},
+        {"does_nothing", info.does_nothing != 0},
+        {"needs_of_camera", camera_needs(info.camera_needs)},
+        {"camera_reason", info.camera_reason},
+        {"image_bytes", info.image_bytes},
+        {"quality", info.quality},
+        {"predicted_ms", info.predicted_ms},
+        {"predicted_error", info.predicted_error < 0 ? ordered_json() : ordered_json(info.predicted_error)},
+        {"entries", entries}};
     if (options.json) {
         fmt::print("{}\n", out.dump(2, ' ', false, ordered_json::error_handler_t::replace));
         return kDone;
@@ -90,7 +94,12 @@ int plan(const PlanOptions &options)
         fmt::print("nothing to do: the picture is copied, bit for bit\n");
     fmt::print("camera: needs {}{}{}\n", camera_needs(info.camera_needs), info.camera_needs ? ": " : "",
                info.camera_needs ? info.camera_reason : "");
-    fmt::print("predicted {:.3f} ms a frame; {:.1f} MiB of images\n", info.predicted_ms, double(info.image_bytes) / 1048576);
+    if (*info.quality)
+        fmt::print("quality: {}\n", info.quality);
+    fmt::print("predicted {:.3f} ms a frame; {:.1f} MiB of images; error against the references {}\n", info.predicted_ms,
+               double(info.image_bytes) / 1048576,
+               info.predicted_error < 0 ? "not predicted for these parameters"
+                                        : fmt::format("below {:.2g}", info.predicted_error));
     return kDone;
 }
 

@@ -151,6 +151,21 @@ Metrics measure(const Picture &a, const Picture &r, const LuminanceWeights &weig
     return m;
 }
 
+Picture box_blurred(const Picture &picture, int reach)
+{
+    const int w = picture.width, h = picture.height;
+    const auto source = [&](int x, int y, int c) {
+        const double v = picture.at(x, y)[c];
+        return std::isfinite(v) ? v : kNone;
+    };
+    const Grid blurred = averaged(w, h, source, [&](int x, int y) {
+        return std::array{std::max(x - reach, 0), std::min(x + reach + 1, w), std::max(y - reach, 0), std::min(y + reach + 1, h)};
+    });
+    Picture out = picture;
+    std::copy(blurred.values.begin(), blurred.values.end(), out.rgb.begin());
+    return out;
+}
+
 void crop_to_common(Picture &a, Picture &b)
 {
     const int x0 = std::max(a.x, b.x), x1 = std::min(a.x + a.width, b.x + b.width);

@@ -37,6 +37,9 @@ constexpr LuminanceWeights kRec709Luminance{0.2126, 0.7152, 0.0722};
 /// averages run over what is finite in both, and borders average what lies inside.
 Metrics measure(const Picture &a, const Picture &reference, const LuminanceWeights &weights = kRec709Luminance);
 
+/// Means over squares of 2 reach + 1 pixels a side, of what is finite inside the picture.
+Picture box_blurred(const Picture &picture, int reach);
+
 /// The parts of both that lie in the intersection of their windows; empty pictures where they are disjoint.
 void crop_to_common(Picture &a, Picture &b);
 

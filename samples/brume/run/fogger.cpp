@@ -1,5 +1,7 @@
 #include "run/fogger.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -8,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "environment/environment.hpp"
+#include "run/calibration.hpp"
 #include "run/shot.hpp"
 #include "support/error.hpp"
 
@@ -35,6 +38,20 @@ brume_image host_image(void *data, int width, int height, int channels)
     return image;
 }
 
+/// As brume_quality.detail.
+double detail_of(const ExrFile &file, const ColorChoice &color)
+{
+    const PartInfo &part = file.parts()[color.part];
+    Picture picture{0, 0, part.width(), part.height(), {}};
+    picture.rgb.resize(std::size_t(picture.width) * std::size_t(picture.height) * 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::vector<float> channel = read_channel(file, color.part, color.rgb[c]);
+        for (std::size_t i = 0; i < channel.size(); ++i)
+            picture.rgb[3 * i + c] = channel[i];
+    }
+    return std::sqrt(measure(box_blurred(picture, 4), picture).relative_mse);
+}
+
 std::string missing_camera(std::uint32_t missing, const char *reason)
 {
     const char *what = missing == BRUME_CAMERA_POSE            ? "camera pose"
@@ -59,6 +76,17 @@ void FogOptions::add_to(CLI::App &command)
     command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")
         ->type_name("EFFECT.PARAM=VALUE")
         ->allow_extra_args(false);
+    auto *chosen = command.add_option("--quality", preset, "draft, standard, final or reference; before the scene file's")
+                       ->check(CLI::IsMember({"draft", "standard", "final", "reference"}))
+                       ->type_name("PRESET");
+    auto *error =
+        command.add_option("--max-error", max_error, "Quality: largest error against the references (root of relMSE)")
+            ->check(CLI::Range(1e-6, 10.0))
+            ->excludes(chosen);
+    command.add_option("--budget-ms", budget_ms, "Quality: largest time of a frame, see `brume calibrate`")
+        ->check(CLI::Range(1e-6, 1e9))
+        ->excludes(chosen)
+        ->excludes(error);
     command.add_option("--layers", layers, "Also write these as brume.NAME: " + known_layers())
         ->delimiter(',')
         ->type_name("NAME,...")
@@ -72,6 +100,7 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
     options.picture.depth_kind();
     options.picture.sky();
     context_ = create_context(options.backend);
+    load_calibration(context_.get());
     brume_scene scene = nullptr;
     check_request(context_.get(),
                   brume_scene_create_from_text(context_.get(), text.data(), text.size(), options.scene.c_str(), &scene), "");
@@ -86,6 +115,7 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
         check_request(context_.get(), brume_scene_set_text(scene, effect.c_str(), parameter.c_str(), value.c_str()),
                       "--set " + set);
     }
+    ask_for_quality();
     check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
     resolve_environment(context_.get(), scene);
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
@@ -93,6 +123,71 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
         if (output.flag == BRUME_OUTPUT_LIGHT_AIRLIGHT && output.light >= scene_info_.light_count)
             throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected light0 to the last of them",
                                            output.name, options.scene, scene_info_.light_count));
+}
+
+void Fogger::ask_for_quality()
+{
+    if (options_.preset.empty() && options_.max_error == 0 && options_.budget_ms == 0)
+        return;
+    brume_quality quality = BRUME_QUALITY_INIT;
+    check_request(context_.get(), brume_scene_get_quality(scene_.get(), &quality), "quality");
+    quality.max_error = options_.max_error;
+    quality.budget_ms = options_.budget_ms;
+    quality.preset = options_.preset == "draft"      ? BRUME_PRESET_DRAFT
+                     : options_.preset == "standard" ? BRUME_PRESET_STANDARD
+                     : options_.preset == "final"    ? BRUME_PRESET_FINAL
+                     : options_.preset.empty()       ? BRUME_PRESET_NONE
+                                                     : BRUME_PRESET_REFERENCE;
+    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
+}
+
+void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth)
+{
+    brume_quality quality = BRUME_QUALITY_INIT;
+    check_request(context_.get(), brume_scene_get_quality(scene_.get(), &quality), "quality");
+    if ((quality.preset == BRUME_PRESET_NONE && quality.max_error == 0 && quality.budget_ms == 0) ||
+        (quality.transmittance > 0 && quality.detail > 0))
+        return;
+    const PartInfo &part = depth_file.parts()[depth.part];
+    Shot shot = shot_of(file, color);
+    shot.format = format_of(part.data_window, depth_file.header(depth.part).displayWindow(), options_.picture);
+    shot.format.outputs = BRUME_OUTPUT_TRANSMITTANCE;
+    brume_quality draft = BRUME_QUALITY_INIT;
+    draft.preset = BRUME_PRESET_DRAFT;
+    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &draft), "quality");
+    brume_plan made = nullptr;
+    const brume_status planned = brume_plan_create(scene_.get(), &shot.format, &made);
+    const PlanHandle plan(made);
+    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
+    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    // What does not work here fails where the scene is planned as it is, with the reason.
+    if (planned != BRUME_OK || brume_plan_get_info(made, &info) != BRUME_OK || info.does_nothing ||
+        (info.camera_needs & ~(shot.camera.given | scene_camera_)))
+        return;
+    std::vector<float> distances = read_channel(depth_file, depth.part, depth.channel);
+    std::vector<float> color_rgb(distances.size() * 3), transmittance(distances.size() * 3);
+    const int width = part.width(), height = part.height();
+    const brume_image c = host_image(color_rgb.data(), width, height, 3), d = host_image(distances.data(), width, height, 1),
+                      t = host_image(transmittance.data(), width, height, 3);
+    brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
+    wanted.output = BRUME_OUTPUT_TRANSMITTANCE;
+    wanted.image = &t;
+    brume_frame call = BRUME_FRAME_INIT;
+    call.color = &c;
+    call.depth = &d;
+    call.output = &c;
+    call.extra = &wanted;
+    call.extra_count = 1;
+    call.camera = &shot.camera;
+    check_request(context_.get(), brume_plan_execute(made, &call), file.path().string());
+    double sum = 0;
+    for (const float value : transmittance)
+        sum += double(value);
+    if (quality.transmittance == 0)
+        quality.transmittance = std::clamp(sum / double(transmittance.size()), 1e-6, 1.0);
+    if (quality.detail == 0)
+        quality.detail = std::clamp(detail_of(file, color), 1e-6, 1e6);
+    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
 Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const

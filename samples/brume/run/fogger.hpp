@@ -6,6 +6,7 @@
 
 #include "commands/options.hpp"
 #include "exr/frame.hpp"
+#include "exr/resolve.hpp"
 #include "exr/write.hpp"
 #include "metrics/metrics.hpp"
 #include "run/layers.hpp"
@@ -15,6 +16,8 @@ namespace brume::tool {
 
 struct FogOptions {
     std::string scene, backend = "auto";
+    std::string preset;               ///< quality; empty: the scene's
+    double max_error = 0, budget_ms = 0;
     std::vector<std::string> set;     ///< effect.param=value
     std::vector<std::string> layers;  ///< extra outputs by name
     PictureOptions picture;
@@ -38,6 +41,9 @@ class Fogger {
 public:
     explicit Fogger(const FogOptions &options);
 
+    /// Learns from a frame what predictions of quality depend on, where quality is asked for and the scene does not say.
+    void expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth);
+
     /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
     /// that nobody gave.
     brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights);
@@ -50,6 +56,7 @@ public:
 
 private:
     struct Shot;
+    void ask_for_quality();
     Shot shot_of(const ExrFile &file, const ColorChoice &color) const;
 
     FogOptions options_;

@@ -98,6 +98,7 @@ private:
         for (const std::size_t i : to_do_) {
             try {
                 const OpenFrame open = open_frame(run_.frames[i].files, options_.fog.picture, limits_);
+                fogger_.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth);
                 const brume_plan plan =
                     fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)));
                 // Once as read, once more as it is written, and the added layers as floats.

@@ -133,6 +133,16 @@ typedef struct brume_context_info {
 #define BRUME_CONTEXT_INFO_INIT {(uint32_t)sizeof(brume_context_info), 0u, 0u, 0u, 0u, 0u, NULL}
 BRUME_API brume_status brume_context_get_info(brume_context context, brume_context_info *info);
 
+/* Measures what the effects' passes take on this device, for at most 20 s; later plans predict and choose with it. Not while
+   other threads use the context. */
+BRUME_API brume_status brume_context_calibrate(brume_context context);
+
+/* The measured rates as text, "" before there are any, for another context of the same device to be given. Copied as
+   brume_message does. */
+BRUME_API size_t brume_context_calibration(brume_context context, char *buffer, size_t capacity);
+/* Fails where the text is not of this library and device, and changes nothing then. */
+BRUME_API brume_status brume_context_set_calibration(brume_context context, const char *text, size_t length);
+
 /* Copies the message of the calling thread's last failed call on this context (context NULL: of any call without one),
    "" if there was none, cut to capacity and always zero-terminated when capacity > 0. Returns the bytes that the whole
    message needs, terminator included. */
@@ -308,6 +318,32 @@ BRUME_API brume_status brume_scene_set_luminance_weights(brume_scene scene, cons
 BRUME_API brume_status brume_scene_set_text(brume_scene scene, const char *effect, const char *parameter, const char *value);
 BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *effect, const char *parameter, double value);
 
+#define BRUME_PRESET_NONE 0u
+#define BRUME_PRESET_DRAFT 1u     /* max_error .3 */
+#define BRUME_PRESET_STANDARD 2u  /* max_error .1 */
+#define BRUME_PRESET_FINAL 3u     /* max_error .03 */
+#define BRUME_PRESET_REFERENCE 4u /* what the others are measured by; CPU only, minutes for small frames */
+
+/* What frames may differ by from the effects' references, or take: at most one of the first three is not 0. Plans then set the
+   effects' parameters that the scene leaves open. The error is the root of relMSE, after 2 x 2 box averages and a 3 x 3 box
+   filter: sqrt(mean((a - r)^2 / (r^2 + (m / 20)^2))), m the mean of r. Errors and presets choose alike on all devices of a
+   backend; time chooses by what this context's device takes (brume_context_calibrate). */
+typedef struct brume_quality {
+  uint32_t struct_size;
+  uint32_t preset;      /* BRUME_PRESET_...; default NONE */
+  double max_error;     /* > 0, at most 10; default 0: none asked */
+  double budget_ms;     /* > 0 per frame; default 0: none asked */
+  double transmittance; /* mean transmittance of what frames show, 0 to 1, which errors depend on; default 0: taken for dense */
+  double detail;        /* how far a frame's colour is from itself after a 9 x 9 box blur, counted as max_error is, which errors
+                           depend on, too: .08 for smooth images, 1 for usual, 5 for small lamps in the dark; default 0: unknown,
+                           taken for 5 */
+} brume_quality;
+#define BRUME_QUALITY_INIT {(uint32_t)sizeof(brume_quality), BRUME_PRESET_NONE, 0.0, 0.0, 0.0, 0.0}
+
+/* Replaces the quality wanted; NULL: parameters are as they are set. */
+BRUME_API brume_status brume_scene_set_quality(brume_scene scene, const brume_quality *quality);
+BRUME_API brume_status brume_scene_get_quality(brume_scene scene, brume_quality *quality);
+
 #define BRUME_UP_Y 0u /* the centre of a lat-long image is toward -z of the world, and +x to the right of it */
 #define BRUME_UP_Z 1u /* toward +y, and +x to the right of it */
 
@@ -380,9 +416,12 @@ typedef struct brume_plan_info {
   uint32_t camera_needs;     /* BRUME_CAMERA_... flags that executing needs */
   const char *camera_reason; /* what needs it and why; "" */
   uint64_t image_bytes;      /* memory of the plan's own images */
-  double predicted_ms;       /* per frame, from the passes' bytes and operations at nominal rates of the backend: rough */
+  double predicted_ms;       /* per frame, from the passes' operations and bytes at the context's rates: nominal ones, or its
+                                own after brume_context_calibrate */
+  double predicted_error;    /* that 95 of 100 frames keep below, as brume_quality.max_error counts; < 0: unknown */
+  const char *quality;       /* what was chosen for the quality asked, and why; "" where none was asked */
 } brume_plan_info;
-#define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0}
+#define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0, 0.0, NULL}
 BRUME_API brume_status brume_plan_get_info(brume_plan plan, brume_plan_info *info);
 
 typedef struct brume_plan_entry {

@@ -108,6 +108,14 @@ public:
         return all;
     }
 
+    void calibrate() { check(brume_context_calibrate(get())); }
+    std::string calibration() const
+    {
+        return detail::copied_text(
+            [&](char *to, std::size_t size) { return brume_context_calibration(get(), to, size); });
+    }
+    void set_calibration(std::string_view text) { check(brume_context_set_calibration(get(), text.data(), text.size())); }
+
     std::string scene_schema() const
     {
         return detail::copied_text(
@@ -166,6 +174,13 @@ public:
         brume_scene_info info = BRUME_SCENE_INFO_INIT;
         context_.check(brume_scene_get_info(get(), &info));
         return info;
+    }
+    void set_quality(const brume_quality &quality) { context_.check(brume_scene_set_quality(get(), &quality)); }
+    brume_quality quality() const
+    {
+        brume_quality quality = BRUME_QUALITY_INIT;
+        context_.check(brume_scene_get_quality(get(), &quality));
+        return quality;
     }
     void set_camera(const brume_camera &camera) { context_.check(brume_scene_set_camera(get(), &camera)); }
     void set_metres_per_unit(double metres) { context_.check(brume_scene_set_metres_per_unit(get(), metres)); }

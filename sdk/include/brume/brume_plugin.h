@@ -129,6 +129,8 @@ typedef struct brume_plugin_request {
   uint32_t pose_matters;           /* 1: some density term depends on the position */
   uint32_t attenuated;             /* 1: an effect that runs before this one attenuates the image by the medium */
   uint32_t lights_scatter;         /* 1: some effect of this scene adds what the lights scatter once */
+  double transmittance;            /* mean transmittance that frames are expected to have; 0 where nobody knows */
+  double detail;                   /* of brume_quality; 0 where nobody knows */
 } brume_plugin_request;
 
 typedef struct brume_plugin_entry {
@@ -137,7 +139,7 @@ typedef struct brume_plugin_entry {
   const char *name;    /* as later given to run() or rows(); copied */
   const char *reason;  /* copied */
   uint64_t bytes;      /* the least to be read and written per frame */
-  uint64_t operations;
+  uint64_t operations; /* what it costs: about as many nanoseconds of one thread of a server CPU */
 } brume_plugin_entry;
 
 /* ---- executing --------------------------------------------------------------------------------------------------- */
@@ -284,6 +286,11 @@ typedef struct brume_effect {
   brume_status (*plan)(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state);
   brume_status (*execute)(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame);
   void (*destroy)(void *state); /* state may be NULL */
+
+  /* NULL, or the settings that a wish for quality chooses from: changes of the request's `parameters` (parameter_count of
+     them, copied there) those that setting `index` fixes, and gives the error that 95 of 100 frames are predicted to keep below
+     with it, as brume_quality.max_error counts; 0: the effect's reference. Returns 1, or 0 from the first index that is none. */
+  uint32_t (*offer)(const brume_plugin_request *request, uint32_t index, double *parameters, double *error);
 } brume_effect;
 
 typedef const brume_effect *(*brume_plugin_effect_function)(uint32_t host_abi);

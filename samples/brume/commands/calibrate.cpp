@@ -1,0 +1,49 @@
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands/commands.hpp"
+#include "run/calibration.hpp"
+#include "run/sdk.hpp"
+#include "support/error.hpp"
+#include "support/pending_file.hpp"
+
+namespace brume::tool {
+namespace {
+
+int calibrate(const std::string &backend, std::filesystem::path file)
+{
+    const ContextHandle context = create_context(backend);
+    if (file.empty())
+        file = calibration_file(context.get());
+    if (file.empty())
+        throw RequestError("neither XDG_CACHE_HOME nor HOME names a folder; expected --output FILE");
+    check_request(context.get(), brume_context_calibrate(context.get()), "calibrate");
+    std::string text(brume_context_calibration(context.get(), nullptr, 0), '\0');
+    brume_context_calibration(context.get(), text.data(), text.size());
+    text.pop_back();
+    std::error_code ignored;
+    std::filesystem::create_directories(file.parent_path(), ignored);
+    PendingFile pending(file);
+    if (!(std::ofstream(pending.path(), std::ios::binary) << text).flush())
+        throw RequestError(fmt::format("{}: cannot be written", file.string()));
+    pending.commit();
+    fmt::print("{}\n", file.string());
+    return kDone;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App &app, Action &chosen)
+{
+    auto *command = app.add_subcommand("calibrate", "Measure what passes take on this device, for predictions and budgets");
+    auto backend = std::make_shared<std::string>("auto"), file = std::make_shared<std::string>();
+    command->add_option("--backend", *backend, "auto (GL where a GPU is found), gl or cpu")->capture_default_str();
+    command->add_option("-o,--output", *file, "Where to keep it (default: the user's cache, where the other commands look)")
+        ->type_name("FILE");
+    command->callback([&chosen, backend, file] { chosen = [backend, file] { return calibrate(*backend, *file); }; });
+}
+
+}  // namespace brume::tool

@@ -1,0 +1,43 @@
+#include "run/calibration.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "run/sdk.hpp"
+
+namespace brume::tool {
+
+std::filesystem::path calibration_file(brume_context context)
+{
+    brume_context_info info = BRUME_CONTEXT_INFO_INIT;
+    check_request(context, brume_context_get_info(context, &info), "calibration");
+    const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+    std::filesystem::path folder;
+    if (cache && *cache == '/')
+        folder = cache;
+    else if (home && *home == '/')
+        folder = std::filesystem::path(home) / ".cache";
+    else
+        return {};
+    std::string device;
+    for (const char *c = info.device; *c; ++c)
+        device += std::isalnum(static_cast<unsigned char>(*c)) ? *c : '-';
+    return folder / "brume" / fmt::format("{}-{}-{}-threads.json", backend_name(info.backend), device, info.threads);
+}
+
+void load_calibration(brume_context context)
+{
+    const std::filesystem::path file = calibration_file(context);
+    std::ifstream in(file, std::ios::binary);
+    if (file.empty() || !in)
+        return;
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (const brume_status status = brume_context_set_calibration(context, text.data(), text.size()); status != BRUME_OK)
+        fmt::print(stderr, "brume: {} is not used: {}\n", file.string(), sdk_message(context, status));
+}
+
+}  // namespace brume::tool

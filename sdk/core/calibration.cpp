@@ -1,0 +1,126 @@
+#include "core/calibration.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "core/context.h"
+#include "core/plan.h"
+
+namespace brume {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double most_seconds = 15;  // after which nothing more is begun
+constexpr int rounds = 3;
+
+// One of each kind of medium and light that passes cost differently for.
+constexpr const char *scenes[] = {
+    R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium":{"scattering":[0.03,0.035,0.04],"absorption":0.002,"g":0.8},
+        "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1},
+                  {"type":"point","position":[-4,2,-20],"intensity":40,"radius":0.1}]})",
+    R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium":{"scattering":0.03,"density":[{"type":"exponential","value":1,"falloff":0.2}]},
+        "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}]})",
+    R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium":{"scattering":0.05,"g":0.3,"density":[{"type":"constant","value":0.2},
+          {"type":"gaussian","center":[0,0,-10],"scale":0.3,"amplitude":2},{"type":"gaussian","center":[5,1,-15],"scale":0.2,"amplitude":2},
+          {"type":"gaussian","center":[-6,0,-18],"scale":0.25,"amplitude":2},{"type":"gaussian","center":[2,-2,-8],"scale":0.5,"amplitude":2}]},
+        "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}]})"};
+constexpr std::pair<int, int> sizes[] = {{192, 108}, {480, 270}};
+
+// A floor that recedes under a sky, boxes on it, and lamps.
+struct TestFrame {
+    std::vector<float> color, depth, output;
+    brume_image images[3];
+    brume_frame frame = BRUME_FRAME_INIT;
+
+    TestFrame(int width, int height)
+        : color(size_t(width) * size_t(height) * 4, 0.2f), depth(size_t(width) * size_t(height)), output(color.size())
+    {
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const float below = (float(y) + 0.5f) / float(height) - 0.4f;
+                const bool box = (x * 16 / width) % 5 == 1 && below > -0.2f;
+                const size_t i = size_t(y) * size_t(width) + size_t(x);
+                depth[i] = box ? 6.0f : below > 0.02f ? 3 / below : INFINITY;
+                if ((x * 40 / width) % 7 == 2 && (y * 24 / height) % 6 == 3)
+                    std::fill_n(color.begin() + ptrdiff_t(4 * i), 3, 60.0f);
+            }
+        float *const data[] = {color.data(), depth.data(), output.data()};
+        for (int i = 0; i < 3; ++i) {
+            images[i] = BRUME_IMAGE_INIT;
+            images[i].width = width;
+            images[i].height = height;
+            images[i].channels = i == 1 ? 1 : 4;
+            images[i].data = data[i];
+        }
+        frame.color = &images[0];
+        frame.depth = &images[1];
+        frame.output = &images[2];
+    }
+    TestFrame(const TestFrame &) = delete;
+};
+
+using Samples = std::map<std::pair<std::string, std::string>, std::vector<double>>;  // effect and pass: ms per operation
+
+void measure(const std::shared_ptr<Context> &context, const Scene &scene, const brume_format &format, TestFrame &test,
+             Samples &samples)
+{
+    brume_host_t plan(context, scene, format);
+    std::vector<double> least(plan.entries().size(), INFINITY);
+    for (int round = 0; round < rounds; ++round) {
+        plan.execute(test.frame);
+        const std::vector<double> ms = plan.measured_ms();
+        for (size_t i = 0; i < ms.size(); ++i)
+            least[i] = std::min(least[i], ms[i]);
+    }
+    for (size_t i = 0; i < least.size(); ++i) {
+        const PlanEntry &entry = plan.entries()[i];
+        if (entry.runs && entry.operations > 0 && least[i] > 0 && std::isfinite(least[i]))
+            samples[{entry.effect, entry.name}].push_back(least[i] / double(entry.operations));
+    }
+}
+
+}  // namespace
+
+void calibrate(const std::shared_ptr<Context> &context)
+{
+    const auto start = Clock::now();
+    auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    Samples samples;
+    for (auto [width, height] : sizes) {
+        TestFrame test(width, height);
+        brume_format format = BRUME_FORMAT_INIT;
+        format.width = width;
+        format.height = height;
+        for (const char *text : scenes) {
+            const Scene scene = parse_scene(text, "calibration", context->effects);
+            const brume_host_t open(context, scene, format, Purpose::rehearsal);
+            for (const PlannedEffect &planned : open.effects())
+                for (const Offer &offer : planned.offers) {
+                    if (offer.error == 0 || spent() > most_seconds)
+                        continue;
+                    // Alone, so that what the others take is not measured again for each of its offers.
+                    Scene alone = scene;
+                    alone.effects = {{planned.effect->name, {}}};
+                    alone.effects_named = true;
+                    for (size_t i = 0; i < planned.effect->parameters.size(); ++i)
+                        alone.effects[0].parameters[planned.effect->parameters[i].name] = offer.parameters[i];
+                    measure(context, alone, format, test, samples);
+                }
+        }
+    }
+    Rates rates;
+    for (auto &[pass, values] : samples) {
+        std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
+        rates.set(pass.first, pass.second, values[values.size() / 2]);
+    }
+    context->rates = rates;
+}
+
+}  // namespace brume

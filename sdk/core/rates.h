@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace brume {
+
+class Backend;
+
+// What passes take on one device: nominal rates, or those that a calibration measured.
+class Rates {
+public:
+    bool measured() const { return !factors_.empty(); }
+    double milliseconds(const Backend &backend, const std::string &effect, const std::string &pass, uint64_t operations,
+                        uint64_t bytes) const;
+    // Milliseconds per operation of a pass.
+    void set(const std::string &effect, const std::string &pass, double rate) { factors_[effect + "/" + pass] = rate; }
+
+    // JSON that names the device; "" before a calibration. read() throws Error(BRUME_ERROR_ARGUMENT) where the text is not
+    // of this version and device, and changes nothing then.
+    std::string write(const Backend &backend) const;
+    void read(const Backend &backend, const std::string &text);
+
+private:
+    std::map<std::string, double> factors_;
+};
+
+}  // namespace brume
