@@ -131,7 +131,7 @@ FIELD(brume_format, sky_distance, 64, 8);
 FIELD(brume_format, nonpositive, 72, 4);
 FIELD(brume_format, reserved, 76, 4);
 
-SIZE(brume_plan_info, 40);
+SIZE(brume_plan_info, 48);
 FIELD(brume_plan_info, struct_size, 0, 4);
 FIELD(brume_plan_info, entry_count, 4, 4);
 FIELD(brume_plan_info, does_nothing, 8, 4);
@@ -139,6 +139,7 @@ FIELD(brume_plan_info, camera_needs, 12, 4);
 FIELD(brume_plan_info, camera_reason, 16, 8);
 FIELD(brume_plan_info, image_bytes, 24, 8);
 FIELD(brume_plan_info, predicted_ms, 32, 8);
+FIELD(brume_plan_info, clamped_values, 40, 8);
 
 SIZE(brume_plan_entry, 64);
 FIELD(brume_plan_entry, struct_size, 0, 4);
