@@ -80,8 +80,10 @@ public:
                     Condition &c = add("exponential", "falloff " + text(falloff) + " along " + Json(direction).dump() +
                                                           " from height " + text(height));
                     c.medium = {{"scattering", 0.1}, {"absorption", {0, 0.05, 0}}};
-                    c.medium["density"] = {
-                        {{"type", "exponential"}, {"falloff", falloff}, {"direction", direction}, {"origin", {0, height, 0}}}};
+                    c.medium["density"] = {{{"type", "exponential"},
+                                            {"falloff", falloff},
+                                            {"direction", direction},
+                                            {"origin", {0, height, 0}}}};
                     c.depth = INFINITY;
                     c.dark = height != 0;
                 }
@@ -92,7 +94,8 @@ public:
         for (double scale : {1e-30, 1e-6, 0.5, 1e6, 1e30})
             for (double amplitude : {0.0, 1e-12, 1.0, 1e6, 1e30})
                 for (double z : {0.0, -4.0}) {
-                    Condition &c = add("Gaussian", "scale " + text(scale) + ", amplitude " + text(amplitude) + " at z " + text(z));
+                    Condition &c =
+                        add("Gaussian", "scale " + text(scale) + ", amplitude " + text(amplitude) + " at z " + text(z));
                     c.medium["density"][1] = gaussian({0, 0, z}, scale, amplitude);
                     c.depth = z == 0 ? INFINITY : 4.0f;
                 }
@@ -136,7 +139,8 @@ public:
                             spot["angle"] = angle;
                             spot["penumbra"] = penumbra;
                             spot["direction"] = {z == 0 ? 1 : 0, 0, z};
-                            add("spot", name + ", angle " + text(angle) + ", penumbra " + text(penumbra) + ", to z " + text(z))
+                            add("spot",
+                                name + ", angle " + text(angle) + ", penumbra " + text(penumbra) + ", to z " + text(z))
                                 .lights = Json::array({spot});
                         }
             }

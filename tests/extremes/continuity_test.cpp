@@ -17,17 +17,27 @@ struct Switch {
     double at;
     double tolerance;  // of the jump, relative to the value or `floor`
     std::function<double(double)> wide, narrow;
-    double step = 0;   // to either side, where the last digit is no measure: at 0, or of what is found by bisection
+    double step = 0;  // to either side, where the last digit is no measure: at 0, or of what is found by bisection
     double floor = 1e-30;
 };
 
 // The same text in both precisions, as m::.
-#define WIDE(expression) [=](double x) -> double { namespace m = f64; (void)x; return double(expression); }
-#define NARROW(expression) [=](double x) -> double { namespace m = f32; (void)x; return double(expression); }
+#define WIDE(expression)                                                                                                    \
+    [=](double x) -> double {                                                                                               \
+        namespace m = f64;                                                                                                  \
+        (void)x;                                                                                                            \
+        return double(expression);                                                                                          \
+    }
+#define NARROW(expression)                                                                                                  \
+    [=](double x) -> double {                                                                                               \
+        namespace m = f32;                                                                                                  \
+        (void)x;                                                                                                            \
+        return double(expression);                                                                                          \
+    }
 #define BOTH(expression) WIDE(expression), NARROW(expression)
 
-constexpr double rounding = 1e-6;      // a few of float's
-constexpr double truncation = 2e-7;    // of the series and rational forms, and one rounding
+constexpr double rounding = 1e-6;    // a few of float's
+constexpr double truncation = 2e-7;  // of the series and rational forms, and one rounding
 
 // The step across the switch beyond what the slope on either side explains.
 double jump(const std::function<double(double)> &f, double low, double high, double lower, double higher, double floor)
@@ -41,7 +51,8 @@ double jump(const std::function<double(double)> &f, double low, double high, dou
 double jump_in_float(const Switch &s)
 {
     const float at = float(s.at), step = float(s.step);
-    const float low = step > 0 ? at - step : std::nextafter(at, -INFINITY), high = step > 0 ? at + step : std::nextafter(at, INFINITY);
+    const float low = step > 0 ? at - step : std::nextafter(at, -INFINITY),
+                high = step > 0 ? at + step : std::nextafter(at, INFINITY);
     const float lower = step > 0 ? at - 2 * step : std::nextafter(low, -INFINITY),
                 higher = step > 0 ? at + 2 * step : std::nextafter(high, INFINITY);
     // The switch itself takes one side or the other.
@@ -123,7 +134,10 @@ template <class Real> struct Image {
 };
 
 struct Images {
-    Images(const std::vector<float> &v, int channels, int width = 1024) : wide(v, channels, width), narrow(v, channels, width) {}
+    Images(const std::vector<float> &v, int channels, int width = 1024)
+        : wide(v, channels, width), narrow(v, channels, width)
+    {
+    }
     Image<double> wide;
     Image<float> narrow;
 };
@@ -164,7 +178,8 @@ TEST(Continuity, Shares)
         {"rescattered_share", 2, rounding, BOTH(m::rescattered_share(medium<m::Medium>(1, 0.1), m::real(x)).x)},
         {"emitted", 2, truncation, BOTH(m::emitted(medium<m::Medium>(0.9, 0.1), m::real(x)).x)},
         {"composed, limit", 65504, rounding, BOTH(m::composed(m::real(x), 1, 0, 65504))},
-        {"composed, largest float", 3.4e38, rounding, BOTH(m::composed(m::real(3.4e38), m::real(x / 3.4e38), 0, 3.402e38f)), 1e32},
+        {"composed, largest float", 3.4e38, rounding, BOTH(m::composed(m::real(3.4e38), m::real(x / 3.4e38), 0, 3.402e38f)),
+         1e32},
         {"spread_angle, long", 1e15, rounding, BOTH(m::spread_angle(medium<m::Medium>(1e-10, 1e-12), m::real(x)))},
         {"spread_angle, dense", 1e15, rounding, BOTH(m::spread_angle(medium<m::Medium>(1e3, 0), m::real(x)))},
         {"spread_angle, absorbing", 1e10, rounding, BOTH(m::spread_angle(medium<m::Medium>(1, 1e8), m::real(x)))},
@@ -214,12 +229,14 @@ TEST(Continuity, Gaussians)
     }
     // Gaussians that are passed at a distance: left out below 3e-5 of what a ray through the centre meets.
     const double whole = 1.7724538509;
-    all.push_back({"passed_by", std::sqrt(std::log(1 / 3e-5)), 3.1e-5,
-                   BOTH(m::passed_by(medium<m::Medium>(1, 0), {m::vec3(m::real(x), 0, -9), 1, 1, m::vec3(1)},
-                                     m::profile_along({m::vec3(m::real(x), 0, -9), 1, 1, m::vec3(1)}, m::vec3(0), m::vec3(0, 0, -1)))
-                            ? 0
-                            : m::gaussian_integral({m::vec3(m::real(x), 0, -9), 1, 1, m::vec3(1)}, m::vec3(0), m::vec3(0, 0, -1), 0, 20)),
-                   1e-5, whole});
+    all.push_back(
+        {"passed_by", std::sqrt(std::log(1 / 3e-5)), 3.1e-5,
+         BOTH(m::passed_by(medium<m::Medium>(1, 0), {m::vec3(m::real(x), 0, -9), 1, 1, m::vec3(1)},
+                           m::profile_along({m::vec3(m::real(x), 0, -9), 1, 1, m::vec3(1)}, m::vec3(0), m::vec3(0, 0, -1)))
+                  ? 0
+                  : m::gaussian_integral({m::vec3(m::real(x), 0, -9), 1, 1, m::vec3(1)}, m::vec3(0), m::vec3(0, 0, -1), 0,
+                                         20)),
+         1e-5, whole});
     hold("Gaussians", all);
 }
 
@@ -236,7 +253,10 @@ TEST(Continuity, ShadowListsLeaveOutWhatDoesNotShow)
     const double whole = 1.7724538509, aside = std::sqrt(14.0);
     hold("shadow lists", {{"aside", 1, 1e-6, nullptr, shadow({aside, 0, 0}), 1e-5, whole},
                           {"aside of the middle", 1, 1e-6, nullptr,
-                           [=](double x) { return shadow({0, 0, 0})(x) + shadow({aside, 0, -5})(x); }, 1e-5, whole},
+                           [=](double x) {
+                               return shadow({0, 0, 0})(x) + shadow({aside, 0, -5})(x);
+                           },
+                           1e-5, whole},
                           {"before the way", 1, 1e-6, nullptr, shadow({0, 0, 3.5}), 1e-5, whole}});
 }
 
@@ -245,14 +265,21 @@ TEST(Continuity, LightsAndTables)
     const Images sun(brume::airlight::sun_table(), 1), environment(brume::airlight::environment_table(), 4);
     auto in_wide = [](const Images &i) { return i.wide.as<f64::Texture>(); };
     auto in_narrow = [](const Images &i) { return i.narrow.as<f32::Texture>(); };
-    auto table = [&](const std::string &name, double at, double tolerance, const Images &image, auto wide, auto narrow, double floor) {
-        return Switch{name, at, tolerance, [=, &image](double x) { return double(wide(in_wide(image), x)); },
-                      [=, &image](double x) { return double(narrow(in_narrow(image), float(x))); }, 0, floor};
+    auto table = [&](const std::string &name, double at, double tolerance, const Images &image, auto wide, auto narrow,
+                     double floor) {
+        return Switch{name,
+                      at,
+                      tolerance,
+                      [=, &image](double x) { return double(wide(in_wide(image), x)); },
+                      [=, &image](double x) { return double(narrow(in_narrow(image), float(x))); },
+                      0,
+                      floor};
     };
     std::vector<Switch> all{
         {"fluence, surface", 0.5, 1e-3, BOTH(m::fluence(m::real(x), m::real(0.5)))},
         {"aspect, least height", 5e-4, rounding,
-         BOTH(m::aspect_of({m::vec3(m::real(x), 0, -5), 0, m::vec3(0), -1, m::vec3(1), -1, 0, 0}, m::vec3(0, 0, -1)).height), 1e-9},
+         BOTH(m::aspect_of({m::vec3(m::real(x), 0, -5), 0, m::vec3(0), -1, m::vec3(1), -1, 0, 0}, m::vec3(0, 0, -1)).height),
+         1e-9},
         {"spot_factor, rim", 0.5, rounding, BOTH(m::spot_factor(spot<m::Light>(0.5), m::real(x))), 0, 1},
         {"spot_factor, inner cone", 0.9, rounding, BOTH(m::spot_factor(spot<m::Light>(0.5), m::real(x))), 0, 1},
         {"asinh_of", 0, rounding, BOTH(m::asinh_of(m::real(x))), 1e-8, 1},
@@ -265,7 +292,8 @@ TEST(Continuity, LightsAndTables)
     };
     for (double along : {0.8, 0.05, -0.05, -0.8})
         all.push_back({"cone to half of space", 1e-6, 1e-5,
-                       BOTH(length(m::lit_interval(spot<m::Light>(x), tilted(m::vec3(0), along), 20, m::real(x)))), 1e-9, 20});
+                       BOTH(length(m::lit_interval(spot<m::Light>(x), tilted(m::vec3(0), along), 20, m::real(x)))), 1e-9,
+                       20});
     // Rays along the cone's side run in it to any distance on one side of the switch, and to the picture's end on the other.
     for (double c : {0.3, 0.7, 0.99})
         all.push_back({"along the cone's side", c, 1e-4,
@@ -275,18 +303,21 @@ TEST(Continuity, LightsAndTables)
 
     for (double u : {10.0, 10.0 * 20 / 63, 10.0 * 62 / 63})
         for (double v : {0.2, 1.0, 1.55})
-            all.push_back(table("sun_function over u", u, rounding, sun,
-                                [=](const f64::Texture &t, double x) { return f64::sun_function(t, x, v); },
-                                [=](const f32::Texture &t, float x) { return f32::sun_function(t, x, float(v)); }, 1e-3));
+            all.push_back(table(
+                "sun_function over u", u, rounding, sun,
+                [=](const f64::Texture &t, double x) { return f64::sun_function(t, x, v); },
+                [=](const f32::Texture &t, float x) { return f32::sun_function(t, x, float(v)); }, 1e-3));
     for (int cell : {1, 30, 62})
-        all.push_back(table("sun_function over v", 1.57079632679490 * cell / 63, rounding, sun,
-                            [=](const f64::Texture &t, double x) { return f64::sun_function(t, 2, x); },
-                            [=](const f32::Texture &t, float x) { return f32::sun_function(t, 2, x); }, 1e-3));
+        all.push_back(table(
+            "sun_function over v", 1.57079632679490 * cell / 63, rounding, sun,
+            [=](const f64::Texture &t, double x) { return f64::sun_function(t, 2, x); },
+            [=](const f32::Texture &t, float x) { return f32::sun_function(t, 2, x); }, 1e-3));
     for (int entry : {0, 1, 33, 79, 80})
         for (int upper : {0, 1})
-            all.push_back(table("environment_factors", 1e-4 * std::exp2(entry / 4.0), 1e-5, environment,
-                                [=](const f64::Texture &t, double x) { return f64::environment_factors(t, x, upper).x; },
-                                [=](const f32::Texture &t, float x) { return f32::environment_factors(t, x, upper).x; }, 1e-30));
+            all.push_back(table(
+                "environment_factors", 1e-4 * std::exp2(entry / 4.0), 1e-5, environment,
+                [=](const f64::Texture &t, double x) { return f64::environment_factors(t, x, upper).x; },
+                [=](const f32::Texture &t, float x) { return f32::environment_factors(t, x, upper).x; }, 1e-30));
     hold("lights and tables", all);
 }
 
@@ -358,16 +389,27 @@ TEST(Continuity, PyramidsAndNoise)
     std::vector<Switch> all;
     for (int mode = 0; mode < 3; ++mode) {
         for (double level : {1.0, 2.0})
-            all.push_back({"fetch_pyramid over levels, mode " + std::to_string(mode), level, rounding,
-                           [=](double x) { return f64::fetch_pyramid(wide, wide_stack, {{n, n}, 3}, mode, {3.3, 4.1}, x).x; },
-                           [=](double x) { return double(f32::fetch_pyramid(narrow, narrow_stack, {{n, n}, 3}, mode, {3.3f, 4.1f}, float(x)).x); }});
+            all.push_back(
+                {"fetch_pyramid over levels, mode " + std::to_string(mode), level, rounding,
+                 [=](double x) {
+                     return f64::fetch_pyramid(wide, wide_stack, {{n, n}, 3}, mode, {3.3, 4.1}, x).x;
+                 },
+                 [=](double x) {
+                     return double(f32::fetch_pyramid(narrow, narrow_stack, {{n, n}, 3}, mode, {3.3f, 4.1f}, float(x)).x);
+                 }});
         for (double pixel : {0.5, 3.5, 4.0, 7.5})
-            all.push_back({"fetch_pyramid over pixels, mode " + std::to_string(mode), pixel, 2e-6,
-                           [=](double x) { return f64::fetch_pyramid(wide, wide_stack, {{n, n}, 3}, mode, {x, 4.1}, 0.4).x; },
-                           [=](double x) { return double(f32::fetch_pyramid(narrow, narrow_stack, {{n, n}, 3}, mode, {float(x), 4.1f}, 0.4f).x); }});
+            all.push_back(
+                {"fetch_pyramid over pixels, mode " + std::to_string(mode), pixel, 2e-6,
+                 [=](double x) {
+                     return f64::fetch_pyramid(wide, wide_stack, {{n, n}, 3}, mode, {x, 4.1}, 0.4).x;
+                 },
+                 [=](double x) {
+                     return double(f32::fetch_pyramid(narrow, narrow_stack, {{n, n}, 3}, mode, {float(x), 4.1f}, 0.4f).x);
+                 }});
     }
     for (double q : {0.0, 3.0, -7.0, 256.0})
-        all.push_back({"noise_at, lattice", q, 1e-5, BOTH(m::noise_at(m::vec3(m::real(x), m::real(0.3), m::real(2.7)), 5).x), 1e-7, 1});
+        all.push_back({"noise_at, lattice", q, 1e-5, BOTH(m::noise_at(m::vec3(m::real(x), m::real(0.3), m::real(2.7)), 5).x),
+                       1e-7, 1});
     hold("pyramids and noise", all);
 }
 
@@ -424,6 +466,7 @@ TEST(Continuity, PathsOfTierNodes)
                        if (x > 1)
                            c.gaussians.push_back({{0.1, 0, -6}, 1, 1e-9, f64::vec3(1)});
                        return c;
-                   }), 1e-5});
+                   }),
+                   1e-5});
     hold("paths of tier nodes", all);
 }

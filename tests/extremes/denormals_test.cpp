@@ -88,7 +88,8 @@ void expect_same(const std::vector<Result> &a, const std::vector<Result> &b)
 TEST(Denormals, GiveFiniteResults)
 {
     for (const Result &r : results(denormal_frame(), [] {}))
-        for (const Picture *p : {&r.output, &r.transmittance, &r.optical_depth, &r.airlight, &r.airlight_error, &r.scattered})
+        for (const Picture *p :
+             {&r.output, &r.transmittance, &r.optical_depth, &r.airlight, &r.airlight_error, &r.scattered})
             for (float v : p->data)
                 ASSERT_TRUE(std::isfinite(v)) << v;
 }
@@ -143,6 +144,7 @@ TEST(Denormals, GlAgreesWithTheCpu)
             const Picture a = fog::run(fog::backend("gl"), column.scene(c), frame.color, frame.depth, options).output,
                           b = fog::run(fog::cpu(), column.scene(c), frame.color, frame.depth, options).output;
             for (size_t i = 0; i < a.data.size(); ++i)
-                ASSERT_NEAR(a.data[i], b.data[i], 1e-37 + 2e-3 * (0.05 + std::abs(b.data[i]))) << name << " " << c.name << " " << i;
+                ASSERT_NEAR(a.data[i], b.data[i], 1e-37 + 2e-3 * (0.05 + std::abs(b.data[i])))
+                    << name << " " << c.name << " " << i;
         }
 }

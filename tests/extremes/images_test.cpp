@@ -130,7 +130,8 @@ TEST_P(Images, PixelTypes)
                 fog::Context::check(brume_plan_execute(plan, &f), context());
                 for (size_t i = 0; i < output.floats.size(); ++i) {
                     const float in = frame.color.data[i], wanted = expected.output.data[i];
-                    const float got = pixel(2) == BRUME_PIXEL_F16 ? brume::half_to_float(output.halves[i]) : output.floats[i];
+                    const float got =
+                        pixel(2) == BRUME_PIXEL_F16 ? brume::half_to_float(output.halves[i]) : output.floats[i];
                     ASSERT_EQ(std::isfinite(got), std::isfinite(in)) << i << ": " << got << " of " << in;
                     if (pixel(2) == BRUME_PIXEL_F16) {
                         ASSERT_EQ(output.halves[i], saturated_half(wanted)) << i << ": " << got << " of " << wanted;
@@ -202,16 +203,18 @@ TEST_P(Images, WhiteFurnace)
         for (float &d : depth.data)
             d = u(random) < 0.2f ? INFINITY : 100 * u(random);
         const Picture color(w, h, 4, 3.5f);
-        for (const char *medium : {R"({"scattering": 0.02, "g": 0.3})", R"({"scattering": [0.05, 0.02, 0.01], "g": 0.9})",
-                                   R"({"scattering": 2, "g": -0.5})", R"({"scattering": 1e4})", R"({"scattering": [1e-12, 0, 1e-4]})",
-                                   R"({"scattering": 0.1, "density": [{"type": "exponential", "falloff": 0.25,
+        for (const char *medium :
+             {R"({"scattering": 0.02, "g": 0.3})", R"({"scattering": [0.05, 0.02, 0.01], "g": 0.9})",
+              R"({"scattering": 2, "g": -0.5})", R"({"scattering": 1e4})", R"({"scattering": [1e-12, 0, 1e-4]})",
+              R"({"scattering": 0.1, "density": [{"type": "exponential", "falloff": 0.25,
                                        "direction": [0.1, 1, 0.2]}]})"})
             for (int levels : {0, 3}) {
                 Column column = extremes::column("calibrated");
                 column.effects["multiscatter"]["levels"] = levels;
                 const Condition c{"furnace", medium, Json::parse(medium), Json::array()};
                 const Worst worst = fog::compare(run(column, c, color, depth).output, color, 1e-3);
-                EXPECT_LT(worst.error, 1e-5) << w << "x" << h << " " << medium << " levels " << levels << " " << worst.describe();
+                EXPECT_LT(worst.error, 1e-5)
+                    << w << "x" << h << " " << medium << " levels " << levels << " " << worst.describe();
                 most = std::max(most, worst.error);
             }
     }
@@ -225,8 +228,9 @@ TEST_P(Images, CamerasFarFromTheOrigin)
     std::vector<fog::NamedScene> scenes = fog::lit_scenes();
     if (on_gl)
         scenes = {scenes[1]};
-    Json exponential{{"scattering", 0.05},
-                     {"density", {{{"type", "exponential"}, {"falloff", 0.2}, {"direction", {0, 1, 0}}, {"origin", {0, -2, 0}}}}}};
+    Json exponential{
+        {"scattering", 0.05},
+        {"density", {{{"type", "exponential"}, {"falloff", 0.2}, {"direction", {0, 1, 0}}, {"origin", {0, -2, 0}}}}}};
     scenes.push_back({"exponential", fog::lit_scene(exponential, ordinary_lights()), {"nodes"}});
     double most = 0;
     for (const auto &[name, near, tiers] : scenes) {

@@ -87,7 +87,8 @@ void check_range(const Condition &c, const Column &column, const Frame &frame, c
                 double added = 0;
                 if (column.filters()) {
                     const float scattered = r.scattered.at(x, y)[k], blur = r.blur_radius.at(x, y)[0];
-                    // Splats of unlike widths add up: a pixel may keep all of its own light and take as much again from others.
+                    // Splats of unlike widths add up: a pixel may keep all of its own light and take as much again from
+                    // others.
                     const double bound = brightest * (column.name == "reference kernel" ? 2.0001 : 1.0001);
                     ASSERT_TRUE(std::isfinite(scattered) && std::abs(scattered) <= bound) << "scattered " << scattered;
                     ASSERT_TRUE(negative || scattered >= 0) << "scattered " << scattered;
@@ -162,8 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Extremes, Table, testing::Values("cpu", "gl"), [](auto 
 TEST_P(Table, EveryConditionForEveryEffectAndTier)
 {
     Figures transmittance(std::string(GetParam()) + ", transmittance against double"),
-        airlight(std::string(GetParam()) + ", airlight against the reference tier"),
-        backends("gl against cpu");
+        airlight(std::string(GetParam()) + ", airlight against the reference tier"), backends("gl against cpu");
     size_t cells = 0;
     for (const Condition &c : rows()) {
         const bool wants_reference = !on_gl || !c.about_lights();
@@ -183,7 +183,8 @@ TEST_P(Table, EveryConditionForEveryEffectAndTier)
             if (wants_reference && compares_with_reference(column)) {
                 if (!reference)
                     reference = run(fog::cpu(), extremes::column("reference tier"), c);
-                const Worst worst = fog::compare(r.airlight, reference->airlight, std::max(1e-12, visible(c, reference->airlight)));
+                const Worst worst =
+                    fog::compare(r.airlight, reference->airlight, std::max(1e-12, visible(c, reference->airlight)));
                 airlight.add(c, column.name, worst.error);
                 if (column.name == "nodes" && !c.peaked() && !c.saturates) {
                     EXPECT_LT(worst.error, 1e-2) << "airlight " << worst.describe();
