@@ -125,9 +125,9 @@ PURE float gaussian_integral(IN(Gaussian) g, vec3 origin, vec3 direction, float 
 PURE vec2 profile_density_moment(IN(Profile) p, float distance)
 {
     // In proportion, so that what is before the middle of a long way stays before it.
-    float shrink = gaussian_limit / max(p.scale * max(abs(p.middle), distance), gaussian_limit);
-    float a = -p.scale * p.middle * shrink;
-    float width = max(p.scale * distance * shrink, R(1e-30));
+    float shrunk = min(p.scale, gaussian_limit / max(max(abs(p.middle), distance), R(1e-30)));
+    float a = -shrunk * p.middle;
+    float width = max(shrunk * distance, R(1e-30));
     float area = gaussian_area(a, width);
     float b = a + width;
     float moment = R(0.0);
