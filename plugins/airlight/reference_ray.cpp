@@ -15,8 +15,9 @@ constexpr double half_root_pi = 0.88622692545275801365;
 double integral_of(const Profile &p, double distance)
 {
     const double from = -p.scale * p.middle, to = p.scale * (distance - p.middle);
-    const double area = from > 0 ? std::erfc(from) - std::erfc(to) : to < 0 ? std::erfc(-to) - std::erfc(-from)
-                                                                           : std::erf(to) - std::erf(from);
+    // On the flanks erf has no digits left, near the centre erfc has none of a short way through a wide Gaussian.
+    const double area = from > 0.5 ? std::erfc(from) - std::erfc(to) : to < -0.5 ? std::erfc(-to) - std::erfc(-from)
+                                                                               : std::erf(to) - std::erf(from);
     return half_root_pi * p.peak / p.scale * area;
 }
 
@@ -39,8 +40,10 @@ public:
     Integrand(const ReferenceScene &scene, vec3 direction, const Light &light)
         : scene_(scene), direction_(direction), light_(light), aspect_(aspect_of(light, direction))
     {
-        for (const Gaussian &g : scene.gaussians)
+        for (const Gaussian &g : scene.gaussians) {
             seen_.push_back(sight_profile(scene.medium, scene.camera, g, direction));
+            most_.push_back(profile_along(g, g.center, direction).peak);
+        }
     }
 
     vec3 operator()(double t) const
@@ -64,7 +67,7 @@ public:
             const double y = seen_[i].scale * (t - seen_[i].middle);
             const Profile shadow = profile_along(g, x, -way);
             depth += integral_of(seen_[i], t);
-            if (shadow.peak > 1e-14 * g.amplitude)
+            if (shadow.peak > 1e-14 * most_[i])
                 depth += integral_of(shadow, d);
             scattering += seen_[i].peak * std::exp(-y * y) * g.colour;
         }
@@ -112,6 +115,7 @@ private:
     const Light &light_;
     Aspect aspect_;
     std::vector<Profile> seen_;  // the Gaussians along the ray
+    std::vector<double> most_;   // their peaks along rays through their centres
 };
 
 struct Piece {

@@ -10,6 +10,7 @@
 
 #include "core/context.h"
 #include "core/error.h"
+#include "core/floating_point.h"
 #include "core/media/history.h"
 #include "core/plan.h"
 #include "core/scene.h"
@@ -45,6 +46,7 @@ void forget_messages(const Context *context);
 // The one exception barrier.
 template <class Function> brume_status barrier(const Context *context, Function function)
 {
+    const DefaultFloatingPoint floating_point;
     auto failed = [&](brume_status status, const char *message) {
         try {
             set_message(context, message);

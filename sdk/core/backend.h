@@ -37,6 +37,8 @@ public:
     virtual std::vector<double> milliseconds(int entries) = 0;
 };
 
+constexpr int64_t not_counted = -1;
+
 // Where passes run. All calls but kind(), device() and the byte counts happen inside invoke().
 class Backend {
 public:
@@ -64,7 +66,7 @@ public:
     // Checks that an image of the caller's is usable here as input (writable: as output); throws Error.
     virtual void check(const brume_image &image, const char *what, bool writable) = 0;
 
-    // BRUME_PIXEL_... that an image to be written holds: a texture knows its own.
+    // BRUME_PIXEL_... that passes write where this image is their output: a texture knows its own.
     virtual uint32_t pixel(const brume_image &image) { return image.pixel; }
 
     // The caller's image for reading: RGBA (grey is spread over RGB, alpha is 1 where there is none) or, for channels 1,
@@ -73,9 +75,10 @@ public:
     // An image to write whose content finish() brings to the caller's. direct: the caller's own may be handed out (it is
     // no input of this frame).
     virtual std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) = 0;
-    virtual void finish_output(const brume_image &image, Image &written) = 0;
-    // from's pixels to `to`, bit for bit where the formats are the same.
-    virtual void copy(const brume_image &from, const brume_image &to) = 0;
+    // Returns how many values were clamped to what halves hold, or not_counted.
+    virtual int64_t finish_output(const brume_image &image, Image &written) = 0;
+    // from's pixels to `to`, bit for bit where the formats are the same. Returns as finish_output() does.
+    virtual int64_t copy(const brume_image &from, const brume_image &to) = 0;
     // Ends a frame: whatever the caller may do next sees what was written.
     virtual void flush() = 0;
 

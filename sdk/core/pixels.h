@@ -48,6 +48,8 @@ struct HostPixels {
     int height;
 };
 
+constexpr float largest_half = 65504.0f;
+
 inline float load_sample(const unsigned char *p, uint32_t pixel)
 {
     if (pixel == BRUME_PIXEL_F16) {
@@ -60,15 +62,17 @@ inline float load_sample(const unsigned char *p, uint32_t pixel)
     return value;
 }
 
-// Finite values stay finite: halves saturate at their largest.
-inline void store_sample(unsigned char *p, uint32_t pixel, float value)
+// Finite values stay finite: halves saturate at their largest. Returns whether this one did.
+inline bool store_sample(unsigned char *p, uint32_t pixel, float value)
 {
-    if (pixel == BRUME_PIXEL_F16) {
-        uint16_t half = float_to_half(std::isfinite(value) ? std::clamp(value, -65504.0f, 65504.0f) : value);
-        std::memcpy(p, &half, 2);
-    } else {
+    if (pixel != BRUME_PIXEL_F16) {
         std::memcpy(p, &value, 4);
+        return false;
     }
+    const bool beyond = std::isfinite(value) && std::abs(value) > largest_half;
+    const uint16_t half = float_to_half(beyond ? std::copysign(largest_half, value) : value);
+    std::memcpy(p, &half, 2);
+    return beyond;
 }
 
 // One row as RGBA: grey is spread over RGB, alpha is 1 where there is none.
@@ -85,17 +89,19 @@ inline void load_row_rgba(const HostPixels &from, int y, float *to)
     }
 }
 
-// The reverse; grey takes the first component.
-inline void store_row_rgba(const float *from, const HostPixels &to, int y)
+// The reverse; grey takes the first component. Returns how many values saturated.
+inline int64_t store_row_rgba(const float *from, const HostPixels &to, int y)
 {
+    int64_t saturated = 0;
     for (int x = 0; x < to.width; ++x, from += 4) {
         unsigned char *p = to.at(x, y);
-        store_sample(p, to.pixel, from[0]);
+        saturated += store_sample(p, to.pixel, from[0]);
         if (to.channels == 2)
-            store_sample(p + to.sample_size, to.pixel, from[3]);
+            saturated += store_sample(p + to.sample_size, to.pixel, from[3]);
         for (int c = 1; c < to.channels && to.channels > 2; ++c)
-            store_sample(p + c * to.sample_size, to.pixel, from[c]);
+            saturated += store_sample(p + c * to.sample_size, to.pixel, from[c]);
     }
+    return saturated;
 }
 
 inline void load_row_scalar(const HostPixels &from, int y, float *to)
@@ -104,10 +110,12 @@ inline void load_row_scalar(const HostPixels &from, int y, float *to)
         to[x] = load_sample(from.at(x, y), from.pixel);
 }
 
-inline void store_row_scalar(const float *from, const HostPixels &to, int y)
+inline int64_t store_row_scalar(const float *from, const HostPixels &to, int y)
 {
+    int64_t saturated = 0;
     for (int x = 0; x < to.width; ++x)
-        store_sample(to.at(x, y), to.pixel, from[x]);
+        saturated += store_sample(to.at(x, y), to.pixel, from[x]);
+    return saturated;
 }
 
 }  // namespace brume

@@ -7,6 +7,8 @@
 #include <map>
 #include <mutex>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/pixels.h"
 #include "core/services.h"
@@ -421,22 +423,24 @@ void brume_host_t::execute(const brume_frame &frame)
         check_frame(frame);
         scene.output_limit = context_->backend->pixel(*frame.output) == BRUME_PIXEL_F16 ? 65504.0f : FLT_MAX;
         timer_->begin();
-        if (does_nothing())
-            copy_frame(frame);
-        else
-            run_effects(frame, scene);
+        clamped_values_ = does_nothing() ? copy_frame(frame) : run_effects(frame, scene);
         timer_->end();
         context_->backend->flush();
     });
+    if (clamped_values_ > 0 && !warned_of_clamping_)
+        context_->log(BRUME_LOG_WARNING,
+                      fmt::format("frame {}: {} values beyond 65504 clamped to fit half outputs; in further frames of this plan "
+                                  "brume_plan_info.clamped_values alone tells",
+                                  frame.frame, clamped_values_));
+    warned_of_clamping_ = warned_of_clamping_ || clamped_values_ > 0;
 }
 
-void brume_host_t::copy_frame(const brume_frame &frame)
+int64_t brume_host_t::copy_frame(const brume_frame &frame)
 {
-    if (!same_memory(*frame.color, *frame.output))
-        context_->backend->copy(*frame.color, *frame.output);
+    return same_memory(*frame.color, *frame.output) ? 0 : context_->backend->copy(*frame.color, *frame.output);
 }
 
-void brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scene &scene)
+int64_t brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scene &scene)
 {
     Backend &backend = *context_->backend;
     bool in_place = same_memory(*frame.color, *frame.output) || same_memory(*frame.depth, *frame.output);
@@ -482,9 +486,12 @@ void brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_scen
         input = seen.output;
     }
     timer_->mark(-1);
-    backend.finish_output(*frame.output, *output);
-    for (uint32_t i = 0; i < frame.extra_count; ++i)
-        backend.finish_output(*frame.extra[i].image, *extras[i]);
+    int64_t clamped = backend.finish_output(*frame.output, *output);
+    for (uint32_t i = 0; i < frame.extra_count; ++i) {
+        const int64_t more = backend.finish_output(*frame.extra[i].image, *extras[i]);
+        clamped = clamped == not_counted || more == not_counted ? not_counted : clamped + more;
+    }
+    return clamped;
 }
 
 void brume_host_t::begin_extras(const brume_frame &frame, std::vector<std::shared_ptr<Image>> &extras,

@@ -53,6 +53,8 @@ public:
     uint32_t camera_needs() const { return camera_needs_; }
     const std::string &camera_reason() const { return camera_reason_; }
     uint64_t image_bytes() const { return image_bytes_; }
+    // Of the last frame's half outputs; not_counted before one.
+    int64_t clamped_values() const { return clamped_values_; }
     // Of the last frame per entry; empty before one.
     std::vector<double> measured_ms();
 
@@ -83,10 +85,10 @@ private:
     void destroy_states() noexcept;
     void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene, bool attenuated);
     void take_offers(brume::PlannedEffect &planned, brume_plugin_request request);
-    void run_effects(const brume_frame &frame, const brume_plugin_scene &scene);
+    int64_t run_effects(const brume_frame &frame, const brume_plugin_scene &scene);
     void begin_extras(const brume_frame &frame, std::vector<std::shared_ptr<brume::Image>> &extras, brume_plugin_frame &seen);
     bool lights_scatter() const;
-    void copy_frame(const brume_frame &frame);
+    int64_t copy_frame(const brume_frame &frame);
     void check_frame(const brume_frame &frame) const;
     int entry_index(const char *name) const;
     [[noreturn]] void effect_failed(const brume::Effect &effect, const char *callback, brume_status status) const;
@@ -116,4 +118,6 @@ private:
     std::string failure_;
     bool warned_ = false;
     const bool rehearsal_;
+    int64_t clamped_values_ = brume::not_counted;
+    bool warned_of_clamping_ = false;
 };

@@ -1,7 +1,6 @@
 #include "core/scene.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 
 #include "core/frame_values.h"
@@ -9,6 +8,7 @@
 namespace brume {
 namespace {
 
+constexpr double steepest = 1e15;      // falloff [1/m]: its product with any length in float is finite
 constexpr double koschmieder = 3.912;  // -log(0.02): contrast at the visibility's distance is 2 %
 
 template <size_t N> bool any_animated(const std::array<Number, N> &numbers)
@@ -142,10 +142,10 @@ void evaluate_density(const Scene &scene, const FrameValues &values, const std::
 
         float *to = out.terms[out.term_count++];
         for (size_t axis = 0; axis < 3; ++axis)
-            to[axis] = float(std::clamp(falloff * dot(pose.axes[axis], n), -ranges::huge, ranges::huge));
+            to[axis] = float(std::clamp(falloff * dot(pose.axes[axis], n), -steepest, steepest));
         to[3] = float(std::clamp(std::log(value) - falloff * dot(from_origin, n), -ranges::huge, ranges::huge));
     }
-    out.constant = float(std::min(constant, double(FLT_MAX)));
+    out.constant = float(std::min(constant, ranges::huge));
 }
 
 }  // namespace

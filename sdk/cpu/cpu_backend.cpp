@@ -138,6 +138,9 @@ public:
                         std::string(what) + ": a GL texture was given to a CPU context; expected host memory");
     }
 
+    // Floats always: finish_output() rounds them, clamps them and counts what it clamped.
+    uint32_t pixel(const brume_image &) override { return BRUME_PIXEL_F32; }
+
     std::shared_ptr<Image> import(const brume_image &image, int32_t channels) override
     {
         HostPixels host(image);
@@ -159,32 +162,35 @@ public:
         return pool_->take(image.width, image.height, channels);
     }
 
-    void finish_output(const brume_image &image, Image &written) override
+    int64_t finish_output(const brume_image &image, Image &written) override
     {
         auto &from = static_cast<CpuImage &>(written);
         HostPixels host(image);
         if (from.data == reinterpret_cast<float *>(host.data))
-            return;
+            return 0;
+        std::atomic<int64_t> saturated = 0;
         for_rows(image.height, [&](int y) {
             const float *row = from.data + y * from.row_stride;
-            from.channels == 1 ? store_row_scalar(row, host, y) : store_row_rgba(row, host, y);
+            if (int64_t n = from.channels == 1 ? store_row_scalar(row, host, y) : store_row_rgba(row, host, y))
+                saturated += n;
         });
+        return saturated;
     }
 
-    void copy(const brume_image &from, const brume_image &to) override
+    int64_t copy(const brume_image &from, const brume_image &to) override
     {
         HostPixels a(from), b(to);
         if (a.data == b.data)
-            return;
+            return 0;
         if (a.pixel == b.pixel && a.channels == b.channels) {
             for_rows(from.height, [&](int y) {
                 for (int x = 0; x < a.width; ++x)
                     std::memcpy(b.at(x, y), a.at(x, y), size_t(a.sample_size) * size_t(a.channels));
             });
-            return;
+            return 0;
         }
         auto image = import(from, 4);
-        finish_output(to, *image);
+        return finish_output(to, *image);
     }
 
     void flush() override {}

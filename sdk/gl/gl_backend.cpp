@@ -52,8 +52,8 @@ public:
     uint32_t pixel(const brume_image &image) override;
     std::shared_ptr<Image> import(const brume_image &image, int32_t channels) override;
     std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) override;
-    void finish_output(const brume_image &image, Image &written) override;
-    void copy(const brume_image &from, const brume_image &to) override;
+    int64_t finish_output(const brume_image &image, Image &written) override;
+    int64_t copy(const brume_image &from, const brume_image &to) override;
     void flush() override;
 
     void run(const brume_plugin_pass &pass, const brume_plugin_scene &scene) override;
@@ -177,7 +177,8 @@ std::shared_ptr<Image> GlBackend::begin_output(const brume_image &image, int32_t
     return pool_->take(image.width, image.height, channels, BRUME_PIXEL_F32);
 }
 
-void GlBackend::finish_output(const brume_image &image, Image &written)
+// Halves are clamped by the passes and by the converter; a count of them would have to be waited for.
+int64_t GlBackend::finish_output(const brume_image &image, Image &written)
 {
     StateGuard &guard = device_.guard();
     const auto &from = static_cast<const GlImage &>(written);
@@ -191,12 +192,13 @@ void GlBackend::finish_output(const brume_image &image, Image &written)
         converter_->convert(from, *converted, samplers_, guard);
         download(*converted, image, guard);
     }
+    return pixel(image) == BRUME_PIXEL_F16 ? not_counted : 0;
 }
 
-void GlBackend::copy(const brume_image &from, const brume_image &to)
+int64_t GlBackend::copy(const brume_image &from, const brume_image &to)
 {
     const auto source = import(from, 4);
-    finish_output(to, *source);
+    return finish_output(to, *source);
 }
 
 void GlBackend::bring(const GlImage &from, const GlImage &to)

@@ -36,7 +36,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         float middle = profile.middle;
         blobs = vec2(min(blobs.x, middle - R(3.0) / g.scale), max(blobs.y, middle + R(3.0) / g.scale));
     }
-    float end = min(sight.distance, max(has_terms ? terms_range(medium, sight).y : R(0.0), blobs.y));
+    float end = min(min(sight.distance, quadrature_limit), max(has_terms ? terms_range(medium, sight).y : R(0.0), blobs.y));
     blobs = blobs.x < blobs.y ? clamp(blobs, vec2(R(0.0)), vec2(end)) : vec2(R(0.0), end);
 
     // The first round's knots, and what the cells between them matter: half their visible mass, half that times the light.
@@ -62,7 +62,8 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     float all_mass = R(1e-30);
     float all_lit = R(1e-30);
     for (int k = 0; k < coarse_cells; ++k) {
-        mass[k] = exp(-min(mean_extinction * p[k], R(80.0))) * one_minus_exp(mean_extinction * max(p[k + 1] - p[k], R(0.0)));
+        // Differences of erf times a dense Gaussian may round below nothing.
+        mass[k] = exp(-clamp(mean_extinction * p[k], R(0.0), R(80.0))) * one_minus_exp(mean_extinction * max(p[k + 1] - p[k], R(0.0)));
         lit[k] = R(0.0);
         all_mass += mass[k];
     }
@@ -131,11 +132,14 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
             float terms = density_integral(medium, sight.direction, edge[j + 1]) - density_integral(medium, sight.direction, edge[j]);
             // The terms' own centroid is near enough to the middle.
             float center = moment[j + 1] - moment[j] + terms * (R(0.5) * (edge[j] + edge[j + 1]) - blobs.x);
-            moment[j] = clamp(blobs.x + center / max(dp, R(1e-30)), edge[j], edge[j + 1]);
+            float place = blobs.x + center / max(dp, R(1e-30));
+            // The moments of Gaussians of 1e30 m overflow.
+            moment[j] = clamp(is_finite(place) ? place : R(0.5) * (edge[j] + edge[j + 1]), edge[j], edge[j + 1]);
             vec3 tau = extinction * dp;
-            coloured[j] = medium.scattering * max(coloured[j + 1] - coloured[j], vec3(R(0.0))) *
+            // The cross-sections last: apart from what they attenuate they overflow.
+            coloured[j] = max(coloured[j + 1] - coloured[j], vec3(R(0.0))) *
                           vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z)) *
-                          transmittance(medium, min(to[j], density_limit));
+                          transmittance(medium, clamp(to[j], R(0.0), density_limit)) * medium.scattering;
             weight[j] = R(0.0);
         }
         total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
@@ -153,9 +157,9 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                     float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
                     f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
                 }
-                total.radiance += f * coloured[j];
+                total.radiance += min(f * coloured[j], vec3(radiance_limit));
                 if (j > 1) {
-                    vec3 error = abs(f - R(2.0) * last + before) * coloured[j - 1] / R(5.0);
+                    vec3 error = min(abs(f - R(2.0) * last + before) * coloured[j - 1], vec3(radiance_limit)) / R(5.0);
                     total.error += R(1.2) * error;
                     weight[j - 1] += error.x + error.y + error.z;
                 }

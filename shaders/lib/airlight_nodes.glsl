@@ -8,6 +8,6 @@ PURE Airlight airlight_by_nodes(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         total = airlight_by_parts(medium, camera, settings, AIRLIGHT_PASSED, sight, first_light, last_light);
     else
         total = airlight_by_cells(medium, camera, settings, AIRLIGHT_PASSED, sight, first_light, last_light);
-    total.error += settings.culled * total.radiance;
-    return Airlight(min(total.radiance, vec3(radiance_limit)), min(total.error, vec3(radiance_limit)));
+    total.radiance = min(total.radiance, vec3(radiance_limit));
+    return Airlight(total.radiance, min(total.error + settings.culled * total.radiance, vec3(radiance_limit)));
 }

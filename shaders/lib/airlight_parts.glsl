@@ -75,7 +75,7 @@ PURE Path angle_path(IN(Light) light, IN(Aspect) aspect, float from, float to, i
 PURE float asinh_of(float x)
 {
     float y = abs(x);
-    float s = log(y + sqrt(y * y + R(1.0)));
+    float s = y < R(1e9) ? log(y + sqrt(y * y + R(1.0))) : log(y) + R(0.69314718056);
     return x < R(0.0) ? -s : s;
 }
 
@@ -134,12 +134,13 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
     for (int k = 0; k < panel_nodes; ++k) {
         vec3 f = vec3(R(0.0));
         float depth = R(0.0);
-        float strength = rho[k] * lit_strength(medium, light, aspect, sight.direction, t[k]);
+        float strength = min(rho[k] * lit_strength(medium, light, aspect, sight.direction, t[k]), radiance_limit);
         if (strength > R(0.0)) {
             vec3 point = t[k] * sight.direction;
             float p_all = p[k] + terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, index, light, point);
             vec3 tau = optical_depth(medium, clamp(p_all, R(0.0), density_limit));
-            f = min(strength * dt[k] * light.intensity, vec3(radiance_limit)) * scattering * exp(-tau);
+            f = min(min(strength * dt[k], radiance_limit) * light.intensity, vec3(radiance_limit)) * exp(-tau);
+            f = min(f * scattering, vec3(radiance_limit));
             depth = min(tau.y, R(100.0));
         }
         value[k] = (f.x + f.y + f.z) / R(3.0);

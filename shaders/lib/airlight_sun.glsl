@@ -42,12 +42,12 @@ PURE float sun_function_error(float u, float v)
 // La of eq. 11 and its error at sigma_s = beta, I = 1.
 PURE vec2 sun_airlight(sampler2D sun_table, IN(Aspect) aspect, vec2 lit, float beta)
 {
-    float u = beta * aspect.height;
+    float u = min(beta * aspect.height, radiance_limit);
     float v0 = R(0.5) * half_pi + R(0.5) * atan(lit.x - aspect.foot, aspect.height);
     float v1 = R(0.5) * half_pi + R(0.5) * atan(lit.y - aspect.foot, aspect.height);
-    float a0 = beta * exp(clamp(-beta * aspect.foot, -R(80.0), R(80.0))) / (R(2.0) * pi * aspect.height);
+    float a0 = min(beta * exp(clamp(-beta * aspect.foot, -R(80.0), R(80.0))) / (R(2.0) * pi * aspect.height), radiance_limit);
     float f = sun_function(sun_table, u, v1) - sun_function(sun_table, u, v0);
-    return a0 * vec2(max(f, R(0.0)), sun_function_error(u, v0) + sun_function_error(u, v1));
+    return min(a0 * vec2(max(f, R(0.0)), sun_function_error(u, v0) + sun_function_error(u, v1)), vec2(radiance_limit));
 }
 
 // The same for each colour, with the scattering in place of the extinction, and the light's intensity.
@@ -60,7 +60,8 @@ PURE Airlight homogeneous_airlight(IN(Medium) medium, sampler2D sun_table, IN(Li
         return none;
     Aspect aspect = aspect_of(light, direction);
     aspect.height = max(aspect.height, light.radius);
-    vec3 beta = (medium.scattering + medium.absorption) * density;
+    vec3 extinction = medium.scattering + medium.absorption;
+    vec3 beta = min(extinction * density, vec3(density_limit));
     vec2 value = vec2(R(0.0));
     Airlight sum = none;
     for (int c = 0; c < 3; ++c) {
@@ -68,7 +69,7 @@ PURE Airlight homogeneous_airlight(IN(Medium) medium, sampler2D sun_table, IN(Li
             continue;
         if (c == 0 || beta[c] != beta[c - 1])
             value = sun_airlight(sun_table, aspect, lit, beta[c]);
-        float albedo = medium.scattering[c] * density / beta[c];
+        float albedo = medium.scattering[c] / extinction[c];
         sum.radiance[c] = min(albedo * light.intensity[c] * value.x, radiance_limit);
         sum.error[c] = min(albedo * light.intensity[c] * value.y, radiance_limit);
     }
@@ -82,7 +83,9 @@ PURE vec3 parallel_airlight(IN(Medium) medium, IN(Light) light, vec3 direction, 
     float p = density_integral(medium, direction, distance);
     vec3 tau = optical_depth(medium, p);
     vec3 mean = vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
-    return phase(medium, -dot(light.direction, direction)) * light.intensity * medium.scattering * min(p * mean, vec3(density_limit)) *
+    // What of the light is scattered is at most all of it, whatever overflows on the way.
+    vec3 share = min(medium.scattering * min(p * mean, vec3(density_limit)), vec3(R(1.0)));
+    return min(phase(medium, -dot(light.direction, direction)) * light.intensity, vec3(radiance_limit)) * share *
            transmittance(medium, density_between(medium, vec3(R(0.0)), -light.direction, far_away, light.distance));
 }
 

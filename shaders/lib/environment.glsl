@@ -64,7 +64,7 @@ PURE vec3 environment_airlight(IN(Medium) medium, IN(Camera) camera, sampler2D e
         vec4 high = environment_factors(environment_table, t[c], 1);
         for (int l = 0; l < order; ++l)
             sum[c] += degree[l][c] * (l < 4 ? low[l] : high[l - 4]);
-        sum[c] = max(sum[c], R(0.0)) * medium.scattering[c] / max(extinction[c], R(1e-30));
+        sum[c] = clamp(sum[c], R(0.0), density_limit) * (medium.scattering[c] / max(extinction[c], R(1e-30)));
     }
     return sum;
 }

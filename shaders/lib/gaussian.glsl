@@ -52,7 +52,7 @@ PURE float scaled_erfc(float x)
 PURE float gaussian_area(float a, float width)
 {
     float from = clamp(a, -gaussian_limit, gaussian_limit);
-    float to = from + min(width, gaussian_limit);
+    float to = clamp(a + width, -gaussian_limit, gaussian_limit);
     float w = R(0.5) * min(width, gaussian_limit);
     float c = from + w;
     if (w * max(abs(c), R(1.0)) < R(0.25)) {
@@ -124,8 +124,10 @@ PURE float gaussian_integral(IN(Gaussian) g, vec3 origin, vec3 direction, float 
 // to 1e-4 of the former only.
 PURE vec2 profile_density_moment(IN(Profile) p, float distance)
 {
-    float a = clamp(-p.scale * p.middle, -gaussian_limit, gaussian_limit);
-    float width = clamp(p.scale * distance, R(1e-30), gaussian_limit);
+    // In proportion, so that what is before the middle of a long way stays before it.
+    float shrunk = min(p.scale, gaussian_limit / max(max(abs(p.middle), distance), R(1e-30)));
+    float a = -shrunk * p.middle;
+    float width = max(shrunk * distance, R(1e-30));
     float area = gaussian_area(a, width);
     float b = a + width;
     float moment = R(0.0);

@@ -50,10 +50,11 @@ PURE vec2 line_in_cone(vec3 foot, vec3 direction, vec3 axis, float c)
         a = -R(1e-12);
     float square = dot(foot, foot);
     float discriminant = off * off + a * square;
-    if (discriminant <= R(0.0) || (a < R(0.0) && off <= R(0.0)))
+    // Within the cone's angle of its axis (a > 0) every line meets it, be it at the apex alone, where all else is zero.
+    if (a < R(0.0) && (discriminant <= R(0.0) || off <= R(0.0)))
         return empty;
     float s = along * off;
-    float root = c * sqrt(discriminant);
+    float root = c * sqrt(max(discriminant, R(0.0)));
     float q = s < R(0.0) ? root - s : -root - s;
     float first = q / a;
     float second = abs(q) > R(1e-30) ? (off * off - c * c * square) / q : first;

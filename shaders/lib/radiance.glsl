@@ -11,9 +11,12 @@ PURE float luminance(vec3 weights, vec3 color)
     return dot(weights, color);
 }
 
+// An infinite optical depth times nothing is not a number.
+const float optical_depth_limit = R(1e38);
+
 PURE vec3 optical_depth(IN(Medium) medium, float p)
 {
-    return (medium.scattering + medium.absorption) * p;
+    return min((medium.scattering + medium.absorption) * p, vec3(optical_depth_limit));
 }
 
 // 1 - e^-x without cancellation, x >= 0.
@@ -37,7 +40,7 @@ PURE vec3 scattered_share(IN(Medium) medium, float p)
 // The part of it that was scattered more than once: scattering events along the ray are Poisson distributed.
 PURE vec3 rescattered_share(IN(Medium) medium, float p)
 {
-    vec3 s = medium.scattering * p;
+    vec3 s = min(medium.scattering * p, vec3(optical_depth_limit));
     vec3 more = vec3(one_minus_exp(s.x), one_minus_exp(s.y), one_minus_exp(s.z)) - s * exp(-s);
     return exp(-medium.absorption * p) * max(more, vec3(R(0.0)));
 }

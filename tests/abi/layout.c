@@ -138,7 +138,7 @@ FIELD(brume_quality, max_error, 8, 8);
 FIELD(brume_quality, budget_ms, 16, 8);
 FIELD(brume_quality, transmittance, 24, 8);
 FIELD(brume_quality, detail, 32, 8);
-SIZE(brume_plan_info, 56);
+SIZE(brume_plan_info, 64);
 FIELD(brume_plan_info, struct_size, 0, 4);
 FIELD(brume_plan_info, entry_count, 4, 4);
 FIELD(brume_plan_info, does_nothing, 8, 4);
@@ -148,6 +148,7 @@ FIELD(brume_plan_info, image_bytes, 24, 8);
 FIELD(brume_plan_info, predicted_ms, 32, 8);
 FIELD(brume_plan_info, predicted_error, 40, 8);
 FIELD(brume_plan_info, quality, 48, 8);
+FIELD(brume_plan_info, clamped_values, 56, 8);
 
 SIZE(brume_plan_entry, 64);
 FIELD(brume_plan_entry, struct_size, 0, 4);

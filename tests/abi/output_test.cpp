@@ -85,6 +85,62 @@ TEST_P(Outputs, HalvesAreClamped)
     EXPECT_NEAR(output.get(2, 2, 0), 1e8f, 100.0f);
 }
 
+TEST_P(Outputs, ClampedValuesAreCountedAndWarnedOfOnce)
+{
+    std::vector<std::string> warnings;
+    brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
+    desc.backend = GetParam();
+    desc.log_user = &warnings;
+    desc.log = [](void *user, uint32_t level, const char *text) {
+        if (level == BRUME_LOG_WARNING && std::strstr(text, "65504"))
+            static_cast<std::vector<std::string> *>(user)->push_back(text);
+    };
+    Context counting = make_context(desc);
+    Scene scene = make_scene(counting, R"({"brume": 1, "medium": {"absorption": 1e-9}})");
+    Plan plan = make_plan(counting, scene, ray_format(width, height, BRUME_OUTPUT_OPTICAL_DEPTH));
+    Picture half(width, height, {.pixel = BRUME_PIXEL_F16}), tau(width, height, {.channels = 3, .pixel = BRUME_PIXEL_F16});
+    const auto clamped = [&] {
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        EXPECT_EQ(brume_plan_get_info(plan.get(), &info), BRUME_OK) << message(counting.get());
+        return info.clamped_values;
+    };
+    const bool counts = GetParam() == BRUME_BACKEND_CPU;
+    EXPECT_EQ(clamped(), -1);
+    ASSERT_EQ(execute(plan.get(), color, depth, half), BRUME_OK) << message(counting.get());
+    EXPECT_EQ(clamped(), counts ? 0 : -1);
+    color.set(2, 2, 0, 1e8f);
+    color.set(3, 2, 1, -1e8f);
+    color.set(4, 2, 2, 65504.0f);
+    color.set(5, 2, 0, INFINITY);
+    color.set(6, 2, 3, 65505.0f);
+    for (int frame = 0; frame < 2; ++frame) {
+        ASSERT_EQ(execute(plan.get(), color, depth, half), BRUME_OK) << message(counting.get());
+        EXPECT_EQ(clamped(), counts ? 3 : -1);
+    }
+    ASSERT_EQ(execute(plan.get(), color, depth, output), BRUME_OK) << message(counting.get());
+    EXPECT_EQ(clamped(), 0);
+    EXPECT_EQ(warnings.size(), counts ? 1u : 0u);
+    if (counts) {
+        EXPECT_NE(warnings[0].find("3 values beyond 65504"), std::string::npos) << warnings[0];
+    }
+
+    // Those of further outputs are counted with them: 1e-9 / m over 1e15 m are more than halves hold.
+    brume_format format = ray_format(width, height, BRUME_OUTPUT_OPTICAL_DEPTH);
+    format.sky = BRUME_SKY_CLAMP;
+    format.sky_distance = 1e15;
+    plan = make_plan(counting, scene, format);
+    depth.set(0, 0, 0, INFINITY);
+    uint64_t sky = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            sky += std::isinf(depth.get(x, y, 0));
+    const brume_image tau_image = tau.image();
+    ASSERT_EQ(execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_OPTICAL_DEPTH, &tau_image)}), BRUME_OK)
+        << message(counting.get());
+    EXPECT_EQ(clamped(), counts ? int64_t(3 * sky) : -1);
+    EXPECT_EQ(tau.get(0, 0, 0), 65504.0f);
+}
+
 TEST_P(Outputs, HugeRadianceStaysFinite)
 {
     Scene scene = make_scene(context, foggy);

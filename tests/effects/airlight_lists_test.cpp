@@ -118,6 +118,43 @@ TEST_P(ListsOn, FollowTheCameraAndTheKeys)
         }
 }
 
+// As many as the documentation promises, through the C ABI.
+TEST_P(ListsOn, ManyGaussians)
+{
+    const Frame frame = lit_frame(12, 8);
+    const Json scene = lit_scene({{"scattering", 0.05}}, Json::array({point_light({0.3, 1, -5}, 10, 0.05)}));
+    for (uint32_t count : {0u, 1u, 1000u, 100000u}) {
+        std::mt19937 random(count);
+        std::uniform_real_distribution<double> u(-1, 1);
+        std::vector<brume_gaussian> gaussians(count, brume_gaussian BRUME_GAUSSIAN_INIT);
+        for (brume_gaussian &g : gaussians) {
+            for (double &x : g.center)
+                x = 30 * u(random);
+            g.center[2] -= 20;
+            g.scale = 0.05 * std::cbrt(double(count)) * std::exp(u(random));
+            g.amplitude = 1;
+        }
+        const Plan plan(context(), scene.dump(), 12, 8,
+                        Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR}, [&](brume_scene changed) {
+                            brume_density_term term = BRUME_DENSITY_TERM_INIT;
+                            term.value = 0.1;
+                            brume_medium medium = BRUME_MEDIUM_INIT;
+                            std::fill_n(medium.scattering, 3, 0.05);
+                            medium.terms = &term;
+                            medium.term_count = 1;
+                            medium.gaussians = gaussians.data();
+                            medium.gaussian_count = count;
+                            Context::check(brume_scene_set_medium(changed, &medium), context());
+                        });
+        const Result r =
+            plan.execute(frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
+        for (float v : r.airlight.data)
+            ASSERT_TRUE(std::isfinite(v) && v > 0) << count;
+        for (float v : r.output.data)
+            ASSERT_TRUE(std::isfinite(v) && v >= 0) << count;
+    }
+}
+
 TEST_P(ListsOn, ACropIsTheSamePicture)
 {
     const int width = 64, height = 42, x0 = 13, y0 = 9, w = 30, h = 21;

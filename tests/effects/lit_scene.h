@@ -1,5 +1,6 @@
 #pragma once
 // Scenes with lights: as text for the C ABI, and the same text evaluated exhaustively in double, without any list.
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -174,10 +175,12 @@ public:
             }
         for (const Json &light : scene.value("lights", Json::array()))
             lights_.push_back(light_of(light));
-        // The library holds scenes in float.
-        for (Gaussian &g : gaussians_)
+        // The library holds scenes in float, radii such that their squares are normal.
+        for (Gaussian &g : gaussians_) {
+            g.scale = std::clamp(g.scale, 1e-18, 1e18);
             for (double *v : {&g.center.x, &g.center.y, &g.center.z, &g.scale, &g.amplitude})
                 *v = float(*v);
+        }
     }
 
     const std::vector<Gaussian> &gaussians() const { return gaussians_; }
@@ -200,12 +203,20 @@ public:
     {
         const double m = glm::dot(g.center, ray.direction), h = glm::length(glm::cross(g.center, ray.direction));
         const double a = g.scale, from = -a * m, to = a * (ray.distance - m);
-        const double area = from > 0 ? std::erfc(from) - std::erfc(to)
-                            : to < 0 ? std::erfc(-to) - std::erfc(-from)
-                                     : std::erf(to) - std::erf(from);
+        const double area = from > 0.5  ? std::erfc(from) - std::erfc(to)
+                            : to < -0.5 ? std::erfc(-to) - std::erfc(-from)
+                                        : std::erf(to) - std::erf(from);
         return 0.5 * whole_density(g) * std::exp(-a * a * h * h) * area;
     }
     static double whole_density(const Gaussian &g) { return 1.77245385090551602730 * g.amplitude / g.scale; }
+
+    vec3 optical_depth(const Ray &ray) const
+    {
+        double p = brume::maths_double::density_integral(medium_, ray.direction, ray.distance);
+        for (const Gaussian &g : gaussians_)
+            p += density(g, ray);
+        return (medium_.scattering + medium_.absorption) * p;
+    }
 
     vec3 airlight(const Ray &ray, double tolerance = 1e-6) const
     {

@@ -420,8 +420,10 @@ typedef struct brume_plan_info {
                                 own after brume_context_calibrate */
   double predicted_error;    /* that 95 of 100 frames keep below, as brume_quality.max_error counts; < 0: unknown */
   const char *quality;       /* what was chosen for the quality asked, and why; "" where none was asked */
+  int64_t clamped_values;    /* of the last execute's half outputs: those beyond 65504, written as that; < 0 before one, and
+                                for half outputs on GL, where a count would have to be waited for. A first is logged. */
 } brume_plan_info;
-#define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0, 0.0, NULL}
+#define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0, 0.0, NULL, 0}
 BRUME_API brume_status brume_plan_get_info(brume_plan plan, brume_plan_info *info);
 
 typedef struct brume_plan_entry {
@@ -476,7 +478,7 @@ typedef struct brume_extra_output {
 
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
-   clamped to +-65504. `output` may be the very image `color` is (in place), with the same layout; partial overlap is
+   clamped to +-65504 (brume_plan_info counts how many). `output` may be the very image `color` is (in place), with the same layout; partial overlap is
    not allowed.
    Host memory: returns when the output is complete. GL textures: the work is enqueued in the current context, nothing
    waits; the caller orders its own reads after it as after any GL write (a memory barrier for all uses is issued). */

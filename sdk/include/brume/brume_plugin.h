@@ -102,7 +102,7 @@ typedef struct brume_plugin_scene {
   uint32_t has_medium;
   brume_plugin_medium medium;
   brume_plugin_camera camera;
-  float output_limit;     /* largest magnitude the output's pixel type holds: 65504 or FLT_MAX */
+  float output_limit;     /* largest magnitude that the output image holds: 65504 or FLT_MAX */
   uint32_t light_count;
   uint32_t gaussian_count;
   uint32_t environment_count; /* of spherical-harmonic coefficients: 0, 1, 4, 9, 16, 25 or 36 */

@@ -1,0 +1,82 @@
+#include "columns.h"
+
+namespace extremes {
+
+uint32_t Column::outputs() const
+{
+    return BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH |
+           (filters() ? BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS : 0) |
+           (lit() ? BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR : 0);
+}
+
+bool Column::takes(const Condition &c) const
+{
+    if (tier() == "sun")
+        return c.isotropic() && c.homogeneous();
+    if (tier() == "fogshop")
+        return c.isotropic();
+    return lit() || !c.about_lights();
+}
+
+std::string Column::scene(const Condition &c) const
+{
+    Json scene = fog::lit_scene(c.medium, lit() ? c.lights : Json::array());
+    scene["effects"] = effects;
+    return scene.dump();
+}
+
+std::vector<Column> columns()
+{
+    auto filter = [](const char *kernel) { return Json{{"multiscatter", {{"kernel", kernel}}}}; };
+    auto airlight = [](const char *tier) { return Json{{"airlight", {{"tier", tier}}}}; };
+    std::vector<Column> all{{"calibrated", filter("calibrated")},
+                            {"paper", filter("paper")},
+                            {"paper, separated", filter("paper")},
+                            {"reference kernel", filter("reference"), true},
+                            {"paper's reference", filter("paper_reference"), true},
+                            {"calibrated, quarter", filter("calibrated")},
+                            {"nodes", airlight("nodes")},
+                            {"nodes, quarter", airlight("nodes")},
+                            {"fogshop", airlight("fogshop")},
+                            {"sun", airlight("sun")},
+                            {"reference tier", airlight("reference"), true},
+                            {"calibrated and nodes", filter("calibrated")}};
+    all[2].effects["multiscatter"].update(
+        {{"separation", true}, {"kernel_size", "6x6"}, {"fetch", "cubic_bicubic"}, {"placement", true}});
+    all[5].effects["multiscatter"].update({{"resolution", "quarter"}, {"lobes", "third"}});
+    all[7].effects["airlight"]["resolution"] = "quarter";
+    all[11].effects.update(airlight("nodes"));
+    return all;
+}
+
+const Column &column(const std::string &name)
+{
+    static const std::vector<Column> all = columns();
+    for (const Column &c : all)
+        if (c.name == name)
+            return c;
+    throw std::runtime_error("no column " + name);
+}
+
+fog::Options options_of(const Column &column)
+{
+    return {[](brume_format &f) {
+                f.depth_kind = BRUME_DEPTH_RAY;
+                f.nonpositive = BRUME_NONPOSITIVE_NEAR;
+            },
+            column.outputs()};
+}
+
+fog::Frame frame_of(const Column &column, const Condition &c)
+{
+    const int width = column.filters() ? 9 : 5, height = column.filters() ? 5 : 3;
+    fog::Frame frame{fog::Picture(width, height, 4, 1), fog::Picture(width, height, 1, 8)};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width / 2 + 1; ++x) {
+            frame.depth.at(x, y)[0] = c.depth;
+            std::fill_n(frame.color.at(x, y), 3, c.radiance);
+        }
+    return frame;
+}
+
+}  // namespace extremes
