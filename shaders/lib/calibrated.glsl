@@ -250,8 +250,11 @@ PURE Collected collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, s
 {
     float reach = reach_of(f, p);
     Collected sum = Collected(vec3(R(0.0)), vec3(R(0.0)));
+    int row = level_row(pyramid.size, f.top);
     for (int k = f.top; k >= min(f.step, f.top); k -= f.step) {
-        Region region = level_region(pyramid, k);
+        Region region = Region(level_size(pyramid.size, k), row);
+        for (int finer = k - 1; finer >= max(k - f.step, 1); --finer)
+            row -= level_size(pyramid.size, finer).y;
         vec2 at = level_position(position, k);
         vec4 v = fetch_linear(stack, region, at);
         vec3 covered = coverage_at(coverage_stack, f, region, at);

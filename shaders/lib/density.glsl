@@ -5,14 +5,15 @@ const float density_limit = R(1e30);
 
 // phi(q) = (1 - e^-q) / q for q >= 0: the mean of e^-qt over t in [0, 1]. The quotient cancels for small q (33 % off in
 // 32 bits near 1e-7); there e^(-q/2) sinh(q/2) / (q/2) takes over, whose series is good to 3e-8 up to q = 2.
+PURE float sinh_series(float q)
+{
+    float y2 = R(0.25) * q * q;
+    return R(1.0) + y2 / R(6.0) * (R(1.0) + y2 / R(20.0) * (R(1.0) + y2 / R(42.0) * (R(1.0) + y2 / R(72.0))));
+}
+
 PURE float mean_exponential(float q)
 {
-    if (q < R(2.0)) {
-        float y2 = R(0.25) * q * q;
-        float s = R(1.0) + y2 / R(6.0) * (R(1.0) + y2 / R(20.0) * (R(1.0) + y2 / R(42.0) * (R(1.0) + y2 / R(72.0))));
-        return exp(-R(0.5) * q) * s;
-    }
-    return (R(1.0) - exp(-q)) / q;
+    return q < R(2.0) ? exp(-R(0.5) * q) * sinh_series(q) : (R(1.0) - exp(-q)) / q;
 }
 
 // Iser eq. 4 for one exponential term. term.xyz = b R^T n, term.w = log rho(camera). Measured from whichever end of the

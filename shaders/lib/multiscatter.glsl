@@ -41,8 +41,8 @@ PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, IN(Filter) f, v
     float w = spread_pixels(medium, camera, p);
     if (f.placement != 0 && !ray.keep)
         w *= placement(density_moment(medium, ray.direction, ray.distance) + gaussians.y, p);
-    return Pixel(ray.distance, p, w, transmittance(medium, p), scattered_share(medium, p),
-                 emitted(medium, p));
+    Shares shares = shares_of(medium, p);
+    return Pixel(ray.distance, p, w, shares.straight, shares.scattered, emitted(medium, p));
 }
 
 struct Sources {

@@ -30,11 +30,36 @@ PURE vec3 transmittance(IN(Medium) medium, float p)
     return exp(-optical_depth(medium, p));
 }
 
-// The share of the source's radiance that was scattered but not absorbed: e^(-C_a P) (1 - e^(-C_s P)), Iser sec. 4.1.
-PURE vec3 scattered_share(IN(Medium) medium, float p)
+// e^-x and 1 - e^-x, x >= 0, by one exponential.
+PURE vec2 parted(float x)
+{
+    float e = exp(x < R(2.0) ? -R(0.5) * x : -x);
+    return x < R(2.0) ? vec2(e * e, x * (e * sinh_series(x))) : vec2(e, R(1.0) - e);
+}
+
+struct Shares {
+    vec3 straight;   // e^(-C_t P)
+    vec3 scattered;  // but not absorbed: e^(-C_a P) (1 - e^(-C_s P)), Iser sec. 4.1
+};
+
+PURE Shares shares_of(IN(Medium) medium, float p)
 {
     vec3 s = medium.scattering * p;
-    return exp(-medium.absorption * p) * vec3(one_minus_exp(s.x), one_minus_exp(s.y), one_minus_exp(s.z));
+    vec2 x = parted(s.x);
+    vec2 y = s.y == s.x ? x : parted(s.y);
+    vec2 z = s.z == s.x ? x : parted(s.z);
+    Shares shares = Shares(vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y));
+    if (medium.absorption != vec3(R(0.0))) {
+        vec3 kept = exp(-min(medium.absorption * p, vec3(optical_depth_limit)));
+        shares.straight *= kept;
+        shares.scattered *= kept;
+    }
+    return shares;
+}
+
+PURE vec3 scattered_share(IN(Medium) medium, float p)
+{
+    return shares_of(medium, p).scattered;
 }
 
 // The part of it that was scattered more than once: scattering events along the ray are Poisson distributed.

@@ -56,7 +56,7 @@ std::vector<Result> results(const Frame &frame, const std::function<void()> &set
     std::vector<Result> all;
     for (const Condition &c : denormal_media())
         for (const Column &column : columns())
-            if (column.takes(c) && column.name != "reference kernel") {
+            if (column.takes(c) && !(column.filters() && column.cpu_only)) {
                 const std::string scene = column.scene(c);
                 const fog::Options options = options_of(column);
                 std::fenv_t before;

@@ -89,7 +89,7 @@ void check_range(const Condition &c, const Column &column, const Frame &frame, c
                     const float scattered = r.scattered.at(x, y)[k], blur = r.blur_radius.at(x, y)[0];
                     // Splats of unlike widths add up: a pixel may keep all of its own light and take as much again from
                     // others.
-                    const double bound = brightest * (column.name == "reference kernel" ? 2.0001 : 1.0001);
+                    const double bound = brightest * (column.name == "paper's reference" ? 2.0001 : 1.0001);
                     ASSERT_TRUE(std::isfinite(scattered) && std::abs(scattered) <= bound) << "scattered " << scattered;
                     ASSERT_TRUE(negative || scattered >= 0) << "scattered " << scattered;
                     ASSERT_TRUE(blur >= 0 && std::isfinite(blur)) << "blur radius " << blur;
