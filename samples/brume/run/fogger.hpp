@@ -10,6 +10,7 @@
 #include "metrics/metrics.hpp"
 #include "run/layers.hpp"
 #include "run/sdk.hpp"
+#include "run/shot.hpp"
 
 namespace brume::tool {
 
@@ -20,6 +21,7 @@ struct FogOptions {
     PictureOptions picture;
 
     void add_to(CLI::App &command);
+    void add_scene_to(CLI::App &command);  ///< all but `layers`
 };
 
 struct PassTime {
@@ -49,8 +51,7 @@ public:
     const brume_scene_info &scene_info() const { return scene_info_; }
 
 private:
-    struct Shot;
-    Shot shot_of(const ExrFile &file, const ColorChoice &color) const;
+    Shot shot(const ExrFile &file, const ColorChoice &color) const;
 
     FogOptions options_;
     ContextHandle context_;
