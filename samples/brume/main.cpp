@@ -25,6 +25,7 @@ int main(int argc, char **argv)
     add_plan(app, chosen);
     add_info(app, chosen);
     add_compare(app, chosen);
+    add_bench(app, chosen);
     add_effects(app, chosen);
     add_schema(app, chosen);
     add_sheet(app, chosen);

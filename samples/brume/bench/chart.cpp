@@ -1,0 +1,120 @@
+#include "bench/chart.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include <cairo-svg.h>
+#include <fmt/format.h>
+
+#include "bench/chart_panel.hpp"
+#include "support/error.hpp"
+#include "support/pending_file.hpp"
+
+namespace brume::tool {
+namespace {
+
+constexpr double kPanelWidth = 470, kPanelHeight = 330, kKeyWidth = 250, kKeyLine = 17, kMargin = 16, kHeading = 34;
+constexpr double kPngScale = 1.25;
+
+double panels_height(const ChartSection &section)
+{
+    const double rows = std::ceil(double(section.panels.size()) / 2);
+    return std::max(rows * kPanelHeight, kKeyLine * double(section.keys.size() + 5) + 24);
+}
+
+double chart_width(const Chart &chart)
+{
+    std::size_t columns = 1;
+    for (const ChartSection &s : chart.sections)
+        columns = std::max(columns, std::min<std::size_t>(s.panels.size(), 2));
+    return double(columns) * kPanelWidth + kKeyWidth + 2 * kMargin;
+}
+
+double chart_height(const Chart &chart)
+{
+    double height = kHeading + kMargin;
+    for (const ChartSection &s : chart.sections)
+        height += kHeading + panels_height(s);
+    return height;
+}
+
+void key_line(cairo_t *cr, double x, double y, Kind kind, const std::string &number, const std::string &text)
+{
+    draw_marker(cr, kind, x + 6, y - 4);
+    cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+    draw_text(cr, x + 34, y, number, Align::kRight);
+    draw_text(cr, x + 42, y, text, Align::kLeft);
+}
+
+void draw_key(cairo_t *cr, const ChartSection &section, double x, double y)
+{
+    set_font(cr, 12);
+    y += 24;
+    for (const ChartKey &key : section.keys) {
+        key_line(cr, x, y, key.kind, std::to_string(key.number), key.name);
+        y += kKeyLine;
+    }
+    y += kKeyLine / 2;
+    for (const auto &[kind, what] : {std::pair(Kind::kSetting, "setting of this library"),
+                                     {Kind::kPublished, "a paper's published mode"},
+                                     {Kind::kBaseline, "what peers do, on the CPU"}}) {
+        key_line(cr, x, y, kind, "", what);
+        y += kKeyLine;
+    }
+    draw_front_sample(cr, x, y - 4);
+    cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+    draw_text(cr, x + 42, y, "Pareto front", Align::kLeft);
+}
+
+void draw(cairo_t *cr, const Chart &chart)
+{
+    cairo_set_source_rgb(cr, 1, 1, 1);
+    cairo_paint(cr);
+    cairo_set_source_rgb(cr, 0, 0, 0);
+    set_font(cr, 17, true);
+    draw_text(cr, kMargin, kMargin + 14, chart.title, Align::kLeft);
+    double y = kHeading;
+    for (const ChartSection &section : chart.sections) {
+        cairo_set_source_rgb(cr, 0, 0, 0);
+        set_font(cr, 14, true);
+        draw_text(cr, kMargin, y + 24, section.title, Align::kLeft);
+        y += kHeading;
+        for (std::size_t i = 0; i < section.panels.size(); ++i)
+            draw_panel(cr, section.panels[i],
+                       {kMargin + double(i % 2) * kPanelWidth, y + double(i / 2) * kPanelHeight, kPanelWidth, kPanelHeight});
+        draw_key(cr, section, chart_width(chart) - kKeyWidth, y);
+        y += panels_height(section);
+    }
+}
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Pen = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+}  // namespace
+
+void draw_chart(const std::filesystem::path &file, const Chart &chart)
+{
+    const bool svg = file.extension() == ".svg";
+    const double width = chart_width(chart), height = chart_height(chart);
+    PendingFile pending(file);
+    const std::string path = pending.path().string();
+    const Surface surface(
+        svg ? cairo_svg_surface_create(path.c_str(), width, height)
+            : cairo_image_surface_create(CAIRO_FORMAT_RGB24, int(width * kPngScale), int(height * kPngScale)),
+        cairo_surface_destroy);
+    {
+        const Pen cr(cairo_create(surface.get()), cairo_destroy);
+        if (!svg)
+            cairo_scale(cr.get(), kPngScale, kPngScale);
+        draw(cr.get(), chart);
+    }
+    cairo_status_t status = svg ? CAIRO_STATUS_SUCCESS : cairo_surface_write_to_png(surface.get(), path.c_str());
+    cairo_surface_finish(surface.get());
+    if (status == CAIRO_STATUS_SUCCESS)
+        status = cairo_surface_status(surface.get());
+    if (status != CAIRO_STATUS_SUCCESS)
+        throw FrameError(fmt::format("{}: cannot be written: {}", file.string(), cairo_status_to_string(status)));
+    pending.commit();
+}
+
+}  // namespace brume::tool
