@@ -13,13 +13,17 @@
 namespace brume::tool {
 namespace {
 
-constexpr double kPanelWidth = 470, kPanelHeight = 330, kKeyWidth = 250, kKeyLine = 17, kMargin = 16, kHeading = 34;
+constexpr double kPanelWidth = 470, kPanelHeight = 330, kKeyWidth = 270, kKeyLine = 17, kMargin = 16, kHeading = 34;
 constexpr double kPngScale = 1.25;
+
+double rows_of(const ChartSection &section)
+{
+    return std::ceil(double(section.panels.size()) / 2);
+}
 
 double panels_height(const ChartSection &section)
 {
-    const double rows = std::ceil(double(section.panels.size()) / 2);
-    return std::max(rows * kPanelHeight, kKeyLine * double(section.keys.size() + 5) + 24);
+    return std::max(rows_of(section) * kPanelHeight, kKeyLine * double(section.keys.size() + 5) + 24);
 }
 
 double chart_width(const Chart &chart)
@@ -46,12 +50,22 @@ void key_line(cairo_t *cr, double x, double y, Kind kind, const std::string &num
     draw_text(cr, x + 42, y, text, Align::kLeft);
 }
 
+void draw_refused(cairo_t *cr, double x, double y, const ChartKey &key)
+{
+    cairo_set_source_rgb(cr, 0.6, 0.6, 0.6);
+    draw_text(cr, x + 34, y, std::to_string(key.number), Align::kRight);
+    draw_text(cr, x + 42, y, key.name + ": refused", Align::kLeft);
+}
+
 void draw_key(cairo_t *cr, const ChartSection &section, double x, double y)
 {
     set_font(cr, 12);
     y += 24;
     for (const ChartKey &key : section.keys) {
-        key_line(cr, x, y, key.kind, std::to_string(key.number), key.name);
+        if (key.measured)
+            key_line(cr, x, y, key.kind, std::to_string(key.number), key.name);
+        else
+            draw_refused(cr, x, y, key);
         y += kKeyLine;
     }
     y += kKeyLine / 2;
@@ -79,9 +93,10 @@ void draw(cairo_t *cr, const Chart &chart)
         set_font(cr, 14, true);
         draw_text(cr, kMargin, y + 24, section.title, Align::kLeft);
         y += kHeading;
+        const double height = panels_height(section) / rows_of(section);
         for (std::size_t i = 0; i < section.panels.size(); ++i)
             draw_panel(cr, section.panels[i],
-                       {kMargin + double(i % 2) * kPanelWidth, y + double(i / 2) * kPanelHeight, kPanelWidth, kPanelHeight});
+                       {kMargin + double(i % 2) * kPanelWidth, y + double(i / 2) * height, kPanelWidth, height});
         draw_key(cr, section, chart_width(chart) - kKeyWidth, y);
         y += panels_height(section);
     }

@@ -26,6 +26,7 @@ struct ChartKey {
     int number;
     Kind kind;
     std::string name;
+    bool measured = true;  ///< else it was refused
 };
 
 /// Panels in two columns beside the key to their numbers.

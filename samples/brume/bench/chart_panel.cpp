@@ -218,6 +218,7 @@ void draw_text(cairo_t *cr, double x, double y, const std::string &text, Align a
 
 void draw_marker(cairo_t *cr, Kind kind, double x, double y)
 {
+    cairo_new_path(cr);
     colour(cr, kind);
     if (kind == Kind::kSetting) {
         cairo_arc(cr, x, y, kMarker, 0, 2 * std::numbers::pi);
@@ -229,7 +230,11 @@ void draw_marker(cairo_t *cr, Kind kind, double x, double y)
         cairo_line_to(cr, x - kMarker, y + kMarker - 1);
         cairo_close_path(cr);
     }
-    cairo_fill(cr);
+    cairo_fill_preserve(cr);
+    // So that markers on each other can be told apart.
+    cairo_set_source_rgb(cr, 1, 1, 1);
+    cairo_set_line_width(cr, 0.8);
+    cairo_stroke(cr);
 }
 
 void draw_front_sample(cairo_t *cr, double x, double y)

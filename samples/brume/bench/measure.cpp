@@ -15,8 +15,7 @@
 namespace brume::tool {
 namespace {
 
-/// A reference is enlarged while it can be expected to take no longer.
-constexpr double kReferenceMs = 20000;
+/// References begin at no more than this width.
 constexpr int kSmallestReference = 32;
 
 template <class Work> double milliseconds(const Work &work)
@@ -193,7 +192,7 @@ Reference make_reference(brume_context cpu, const SceneText &scene, const Sample
     Reference best = at(factor);
     // Time grows with the pixels, or with their square where each takes from all.
     double growth = 16;
-    while (factor > 1 && best.ms * growth < kReferenceMs) {
+    while (factor > 1 && best.ms * growth < 1000 * options.reference_seconds) {
         const double before = best.ms;
         factor /= 2;
         best = at(factor);

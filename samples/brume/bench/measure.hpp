@@ -41,7 +41,8 @@ struct Group {
 
 struct BenchOptions {
     int repeat = 5;
-    int reference_width = 0;  ///< at most [px]; 0: what takes about 20 seconds
+    double reference_seconds = 20;  ///< references are as large as this allows, about
+    int reference_width = 0;        ///< or at most this wide [px]; 0: as time allows
 };
 
 /// Square root of relMSE.

@@ -31,11 +31,6 @@ ordered_json json_of(const std::optional<Metrics> &m)
             {"energy", number(m->energy)}};
 }
 
-ordered_json json_of(const Errors &errors)
-{
-    return {{"reference", json_of(errors.reference)}, {"truth", json_of(errors.truth)}};
-}
-
 ordered_json json_of(const Row &row)
 {
     ordered_json parameters = ordered_json::object();
@@ -90,17 +85,6 @@ std::string table_of(const Group &group)
     return text;
 }
 
-ChartPanel panel_of(const Group &group, const std::string &title, std::optional<Metrics> Errors::*metrics)
-{
-    ChartPanel panel{title, "time / that of a copy of the image", "error (square root of relMSE)", {}, {}};
-    if (group.without_fog.*metrics)
-        panel.without_fog = error_of(*(group.without_fog.*metrics));
-    for (std::size_t i = 0; i < group.rows.size(); ++i)
-        if (const Row &row = group.rows[i]; row.errors.*metrics)
-            panel.points.push_back({int(i) + 1, row.setting.kind, row.copies, error_of(*(row.errors.*metrics))});
-    return panel;
-}
-
 }  // namespace
 
 BenchReport report_for(brume_context context, const SceneText &scene, const Sample &sample, const BenchOptions &options)
@@ -119,22 +103,31 @@ BenchReport report_for(brume_context context, const SceneText &scene, const Samp
     return report;
 }
 
+ordered_json json_of(const Errors &errors)
+{
+    return {{"reference", json_of(errors.reference)}, {"truth", json_of(errors.truth)}};
+}
+
+ordered_json json_of(const Group &group)
+{
+    ordered_json rows = ordered_json::array();
+    for (const Row &row : group.rows)
+        rows.push_back(json_of(row));
+    return {{"effect", group.effect},
+            {"reference",
+             {{"width", group.reference_width},
+              {"height", group.reference_height},
+              {"ms", number(group.reference_ms)},
+              {"against_truth", json_of(group.reference_truth)}}},
+            {"without_fog", {{"against", json_of(group.without_fog)}}},
+            {"settings", rows}};
+}
+
 ordered_json json_of(const BenchReport &report)
 {
     ordered_json effects = ordered_json::array();
-    for (const Group &g : report.groups) {
-        ordered_json rows = ordered_json::array();
-        for (const Row &row : g.rows)
-            rows.push_back(json_of(row));
-        effects.push_back({{"effect", g.effect},
-                           {"reference",
-                            {{"width", g.reference_width},
-                             {"height", g.reference_height},
-                             {"ms", number(g.reference_ms)},
-                             {"against_truth", json_of(g.reference_truth)}}},
-                           {"without_fog", {{"against", json_of(g.without_fog)}}},
-                           {"settings", rows}});
-    }
+    for (const Group &group : report.groups)
+        effects.push_back(json_of(group));
     return {{"scene", report.scene},
             {"frame", report.frame},
             {"backend", report.backend},
@@ -168,6 +161,25 @@ std::string markdown_of(const BenchReport &report)
     return text + ".\n";
 }
 
+ChartPanel panel_of(const Group &group, const std::string &title, std::optional<Metrics> Errors::*metrics)
+{
+    ChartPanel panel{title, "time / that of a copy of the image", "error (square root of relMSE)", {}, {}};
+    if (group.without_fog.*metrics)
+        panel.without_fog = error_of(*(group.without_fog.*metrics));
+    for (std::size_t i = 0; i < group.rows.size(); ++i)
+        if (const Row &row = group.rows[i]; row.errors.*metrics)
+            panel.points.push_back({int(i) + 1, row.setting.kind, row.copies, error_of(*(row.errors.*metrics))});
+    return panel;
+}
+
+std::vector<ChartKey> keys_of(const Group &group)
+{
+    std::vector<ChartKey> keys;
+    for (const Row &row : group.rows)
+        keys.push_back({int(keys.size()) + 1, row.setting.kind, row.setting.name, row.refusal.empty()});
+    return keys;
+}
+
 Chart chart_of(const BenchReport &report)
 {
     Chart chart{fmt::format("{}, {} on {} ({})", std::filesystem::path(report.scene).filename().string(),
@@ -179,9 +191,7 @@ Chart chart_of(const BenchReport &report)
             g, fmt::format("against the reference, at {} x {}", g.reference_width, g.reference_height), &Errors::reference));
         if (ChartPanel truth = panel_of(g, "against path-traced truth", &Errors::truth); !truth.points.empty())
             section.panels.push_back(std::move(truth));
-        for (std::size_t i = 0; i < g.rows.size(); ++i)
-            section.keys.push_back({int(i) + 1, g.rows[i].setting.kind,
-                                    g.rows[i].setting.name + (g.rows[i].refusal.empty() ? "" : " (refused)")});
+        section.keys = keys_of(g);
         chart.sections.push_back(std::move(section));
     }
     return chart;

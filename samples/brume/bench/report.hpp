@@ -19,8 +19,12 @@ struct BenchReport {
 /// With the backend's name and device, and nothing measured.
 BenchReport report_for(brume_context context, const SceneText &scene, const Sample &sample, const BenchOptions &options);
 
+nlohmann::ordered_json json_of(const Errors &errors);
+nlohmann::ordered_json json_of(const Group &group);
 nlohmann::ordered_json json_of(const BenchReport &report);
 std::string markdown_of(const BenchReport &report);
+ChartPanel panel_of(const Group &group, const std::string &title, std::optional<Metrics> Errors::*metrics);
+std::vector<ChartKey> keys_of(const Group &group);
 Chart chart_of(const BenchReport &report);
 
 /// Beside its place and renamed. Throws FrameError.

@@ -93,7 +93,12 @@ void add_bench(CLI::App &app, Action &chosen)
         ->check(CLI::Range(1, 1000));
     command
         ->add_option("--reference-width", options->options.reference_width,
-                     "Halve the frame for the references until it is no wider (default: what takes about 20 s)")
+                     "Halve the frame for the references until it is no wider, however long they take")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--reference-seconds", options->options.reference_seconds,
+                     "Halve the frame for the references until they take no longer, about")
+        ->capture_default_str()
         ->check(CLI::PositiveNumber);
     command->add_option("--json", options->json, "Write JSON")->type_name("FILE");
     command->add_option("--md", options->markdown, "Write the table as Markdown")->type_name("FILE");
