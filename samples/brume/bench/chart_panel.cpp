@@ -45,7 +45,7 @@ template <class Visit> void for_ticks(const Axis &axis, const Visit &visit)
                 continue;
             const bool labelled = m == 1 || ((m == 2 || m == 5) && decades < 2.2);
             const std::string label =
-                e < -2 || e > 4 ? fmt::format("{}e{}", m, e) : fmt::format("{:.4g}", m * std::pow(10.0, e));
+                e < -2 || e > 3 ? fmt::format("{}e{}", m, e) : fmt::format("{:.4g}", m * std::pow(10.0, e));
             visit(std::pow(10.0, at), labelled ? label : "");
         }
 }

@@ -37,6 +37,7 @@ void add_multiscatter(std::vector<Setting> &all)
 void add_airlight(std::vector<Setting> &all)
 {
     const std::string effect = "airlight";
+    all.push_back({effect, "nodes 0.01, full", Kind::kSetting, {}});
     for (const std::string resolution : {"full", "half", "quarter"})
         for (const std::string error : {"0.5", "0.1", "0.02", "0.005", "0.001"})
             // What the nodes leave is small beside what is interpolated.
