@@ -1,5 +1,6 @@
 #include "bench/chart.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -23,7 +24,7 @@ double rows_of(const ChartSection &section)
 
 double panels_height(const ChartSection &section)
 {
-    return std::max(rows_of(section) * kPanelHeight, kKeyLine * double(section.keys.size() + 5) + 24);
+    return std::max(rows_of(section) * kPanelHeight, kKeyLine * double(section.keys.size() + 6) + 24);
 }
 
 double chart_width(const Chart &chart)
@@ -54,7 +55,7 @@ void draw_refused(cairo_t *cr, double x, double y, const ChartKey &key)
 {
     cairo_set_source_rgb(cr, 0.6, 0.6, 0.6);
     draw_text(cr, x + 34, y, std::to_string(key.number), Align::kRight);
-    draw_text(cr, x + 42, y, key.name + ": refused", Align::kLeft);
+    draw_text(cr, x + 42, y, key.name, Align::kLeft);
 }
 
 void draw_key(cairo_t *cr, const ChartSection &section, double x, double y)
@@ -78,6 +79,10 @@ void draw_key(cairo_t *cr, const ChartSection &section, double x, double y)
     draw_front_sample(cr, x, y - 4);
     cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
     draw_text(cr, x + 42, y, "Pareto front", Align::kLeft);
+    if (std::any_of(section.keys.begin(), section.keys.end(), [](const ChartKey &key) { return !key.measured; })) {
+        cairo_set_source_rgb(cr, 0.6, 0.6, 0.6);
+        draw_text(cr, x + 42, y + kKeyLine, "grey: refused here", Align::kLeft);
+    }
 }
 
 void draw(cairo_t *cr, const Chart &chart)

@@ -114,7 +114,7 @@ std::vector<Case> truth_pictures(const Options &options, bool single)
         fs::path truth = file;
         const int factor = options.quick ? single ? 8 : 4 : single ? 4 : 1;
         all.push_back(load(name, scene, clear, truth.replace_extension(".exr"), factor));
-        if (options.quick && all.size() == 2)
+        if (options.quick && all.size() == (single ? 1 : 2))
             break;
     }
     return all;

@@ -46,7 +46,7 @@ std::string cell(const std::optional<Metrics> &m)
 // "llvmpipe (LLVM 15.0.6, 256 bits)" is llvmpipe.
 std::string short_name(const std::string &device)
 {
-    return device.substr(0, device.find_first_of(",("));
+    return device.substr(0, device.find_first_of(", ("));
 }
 
 std::string head_of(const SetResult &set, bool truth)
