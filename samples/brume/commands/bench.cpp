@@ -38,7 +38,14 @@ Sample sample_of(const BenchCommand &command, brume_context context, const Scene
     std::uint32_t camera = 0;
     check_request(context, brume_scene_get_camera_given(make_scene(context, scene).get(), &camera), scene.name);
     const FilePattern pattern(command.input);
-    const Sample whole = load_sample(list_frames(pattern, pattern, "").front(), command.fog.picture, camera, command.truth);
+    const Sample whole = [&] {
+        try {
+            return load_sample(list_frames(pattern, pattern, "").front(), command.fog.picture, camera, command.truth);
+        } catch (const FrameError &e) {
+            // There is no other frame to go on with.
+            throw RequestError(e.what());
+        }
+    }();
     const int factor = factor_of(command.scale);
     if (factor > whole.width() || factor > whole.height())
         throw RequestError(
