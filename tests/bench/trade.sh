@@ -13,7 +13,7 @@ done
 mkdir -p "$out"
 build/release/bin/trade "${options[@]}" ../shared samples "$out"
 if [ -n "$docs" ]; then
-  cp "$out/trade.svg" "$out/trade.png" docs/images/
+  cp "$out/trade.png" docs/images/
   awk -v tables="$out/trade_short.md" '
     /^<!-- end of trade -->/ { skip = 0 }
     !skip { print }

@@ -57,9 +57,9 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
                                            output.name, options.scene, scene_info_.light_count));
 }
 
-Shot Fogger::shot(const ExrFile &file, const ColorChoice &color) const
+Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
 {
-    Shot shot = shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
+    Shot shot = tool::shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
     for (const LayerOutput &output : outputs_)
         shot.format.outputs |= output.flag;
     return shot;
@@ -67,7 +67,7 @@ Shot Fogger::shot(const ExrFile &file, const ColorChoice &color) const
 
 brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights)
 {
-    const Shot shot = this->shot(file, color);
+    const Shot shot = shot_of(file, color);
     const std::vector<double> key{double(shot.format.width),
                                   double(shot.format.height),
                                   double(shot.format.display_x),
@@ -96,7 +96,7 @@ brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const
 FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers)
 try {
     const brume_plan plan = plan_for(frame.file, frame.color, weights);
-    const Shot shot = this->shot(frame.file, frame.color);
+    const Shot shot = shot_of(frame.file, frame.color);
     const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);
     const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
 

@@ -51,7 +51,7 @@ public:
     const brume_scene_info &scene_info() const { return scene_info_; }
 
 private:
-    Shot shot(const ExrFile &file, const ColorChoice &color) const;
+    Shot shot_of(const ExrFile &file, const ColorChoice &color) const;
 
     FogOptions options_;
     ContextHandle context_;

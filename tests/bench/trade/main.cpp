@@ -40,8 +40,9 @@ std::vector<Device> devices()
     return all;
 }
 
-SetResult measure_set(const std::vector<Device> &on, const Set &set, const BenchOptions &options)
+SetResult measure_set(const std::vector<Device> &on, const Set &set, BenchOptions options)
 {
+    options.reference_width = set.reference_width;
     SetResult result{set.name, set.effect, {}, {}};
     std::vector<std::vector<Group>> groups(on.size());
     for (const Case &p : set.pictures) {
@@ -83,7 +84,8 @@ try {
     }
     options.shared = folders[0];
     options.samples = folders[1];
-    const BenchOptions bench{options.quick ? 1 : 3, options.quick ? 0.5 : 15.0, 0};
+    BenchOptions bench;
+    bench.repeat = options.quick ? 1 : 3;
     const std::vector<Device> on = devices();
     Study study{options.seed, options.quick, {}, {}};
     for (const Set &set : all_sets(options))

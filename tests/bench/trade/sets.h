@@ -19,6 +19,7 @@ struct Case {
 
 struct Set {
     std::string name, effect;
+    int reference_width = 0;  // at most; the same on every machine, so that errors can be compared
     std::vector<Case> pictures;
 };
 
