@@ -139,7 +139,7 @@ Sample random_sample(std::mt19937 &engine, int width, int height)
     return sample;
 }
 
-Json random_medium(std::mt19937 &engine, const Sample &sample)
+Json random_foggy_scene(std::mt19937 &engine, const Sample &sample)
 {
     Random r{engine};
     const double far = median(sample.depth);

@@ -28,6 +28,18 @@ std::vector<Case> street(const Options &options, const std::string &name, const 
     return all;
 }
 
+Json scene_of_description(const Json &description)
+{
+    Json medium = description["medium"];
+    medium.erase("orders");
+    return {{"brume", 1},
+            {"camera",
+             {{"horizontal_fov", description["camera"]["horizontal_fov_degrees"]},
+              {"camera_to_world", description["camera"]["camera_to_world"]}}},
+            {"medium", medium},
+            {"effects", {{"multiscatter", Json::object()}}}};
+}
+
 // The sample's lamps in its thin fog. Its bank of Gaussians would take the reference hours.
 Json lit_street(const Options &options)
 {
@@ -66,18 +78,6 @@ SceneText scene_text(const std::string &name, const Json &scene)
 Json truth_description(const Options &options, const std::string &name)
 {
     return Json::parse(std::ifstream(options.shared + "/truth/" + name + ".json"));
-}
-
-Json scene_of_description(const Json &description)
-{
-    Json medium = description["medium"];
-    medium.erase("orders");
-    return {{"brume", 1},
-            {"camera",
-             {{"horizontal_fov", description["camera"]["horizontal_fov_degrees"]},
-              {"camera_to_world", description["camera"]["camera_to_world"]}}},
-            {"medium", medium},
-            {"effects", {{"multiscatter", Json::object()}}}};
 }
 
 Json lights_of_description(const Json &description)
@@ -122,7 +122,6 @@ std::vector<Case> truth_pictures(const Options &options, bool single)
 
 std::vector<Set> all_sets(const Options &options)
 {
-    const auto medium = [](std::mt19937 &random, const Sample &sample) { return random_medium(random, sample); };
     const auto lit = [](Air air) {
         return [air](std::mt19937 &random, const Sample &sample) { return random_lit_scene(random, sample, air); };
     };
@@ -133,7 +132,7 @@ std::vector<Set> all_sets(const Options &options)
     sets.push_back({"path-traced scenes", "multiscatter", usual, truth_pictures(options, false)});
     sets.push_back(
         {"demo frames", "multiscatter", usual, street(options, "street.json", street_scene, options.quick ? 4 : 1)});
-    sets.push_back({"random pictures", "multiscatter", usual, random_pictures(options, 12, 160, 1, medium)});
+    sets.push_back({"random pictures", "multiscatter", usual, random_pictures(options, 12, 160, 1, random_foggy_scene)});
     sets.push_back({"random, homogeneous and isotropic", "airlight", usual,
                     random_pictures(options, 8, 128, 2, lit(Air::kHomogeneous))});
     sets.push_back({"random, isotropic with Gaussians", "airlight", smallest,

@@ -34,9 +34,8 @@ brume::tool::SceneText scene_text(const std::string &name, const Json &scene);
 
 // Path-traced scenes: with `single`, those in which light scatters at most once, lit by the spheres that they have.
 std::vector<Case> truth_pictures(const Options &options, bool single);
-// The same scenes that scatter often, but with their spheres as lights too.
+// What stands beside a path-traced scene, by the name of its scene text.
 Json truth_description(const Options &options, const std::string &name);
-Json scene_of_description(const Json &description);
 Json lights_of_description(const Json &description);
 
 std::vector<Set> all_sets(const Options &options);
@@ -44,7 +43,7 @@ std::vector<Set> all_sets(const Options &options);
 // Random slabs, planes or balls with lamps between them.
 brume::tool::Sample random_sample(std::mt19937 &random, int width, int height);
 // Fog for them, of an optical depth of .2 to 5 to the middle distance.
-Json random_medium(std::mt19937 &random, const brume::tool::Sample &sample);
+Json random_foggy_scene(std::mt19937 &random, const brume::tool::Sample &sample);
 
 enum class Air { kHomogeneous, kGaussians, kAny };
 // Lights in a medium that tier sun knows, that fogshop knows, or that neither does.
