@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/baselines.hpp"
 #include "bench/pareto.hpp"
 #include "files.hpp"
 
@@ -23,6 +24,32 @@ TEST(Pareto, KeepsEqualsAndLeavesOutWhatHasNoCost)
     const Cost costs[] = {{1, 1}, {NAN, 0}, {1, 1}, {0.5, INFINITY}, {1, 2}};
     EXPECT_EQ(pareto_front(costs), (std::vector<std::size_t>{0, 2}));
     EXPECT_TRUE(pareto_front({}).empty());
+}
+
+TEST(Baselines, KeepAUniformPictureAndWhatNoFogCovers)
+{
+    BaselineInput in;
+    in.image.width = 40;
+    in.image.height = 20;
+    in.image.rgb.assign(3 * 40 * 20, 0.25f);
+    in.transmittance.assign(40 * 20, 0.3f);
+    Picture out = in.image;
+    for (const Baseline &baseline : baselines()) {
+        baseline.apply(in, out);
+        for (const float v : out.rgb)
+            ASSERT_NEAR(v, 0.25f, 1e-5) << baseline.name;
+    }
+    in.image.rgb[3 * 90] = 80;
+    in.transmittance.assign(in.transmittance.size(), 1);
+    for (const Baseline &baseline : baselines()) {
+        baseline.apply(in, out);
+        EXPECT_EQ(out.rgb, in.image.rgb) << baseline.name;
+    }
+    in.transmittance[92] = 0;
+    for (const Baseline &baseline : baselines()) {
+        baseline.apply(in, out);
+        EXPECT_GT(out.rgb[3 * 92], 0.25f) << baseline.name << ": the bright pixel reaches others";
+    }
 }
 
 class Bench : public testing::Test {

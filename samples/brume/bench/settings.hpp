@@ -22,7 +22,8 @@ struct Setting {
     Parameters parameters;
 };
 
-/// All that is measured, effect by effect, each effect's default first. A setting that the scene or the backend does not allow is listed with the reason.
+/// All that is measured, effect by effect, each effect's default first. A setting that the scene or the backend does not
+/// allow is listed with the reason.
 const std::vector<Setting> &settings();
 
 /// The yardstick of an effect.

@@ -59,7 +59,8 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
 
 Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
 {
-    Shot shot = tool::shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
+    Shot shot =
+        tool::shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
     for (const LayerOutput &output : outputs_)
         shot.format.outputs |= output.flag;
     return shot;
