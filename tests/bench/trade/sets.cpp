@@ -136,11 +136,11 @@ std::vector<Set> all_sets(const Options &options)
     sets.push_back({"random, homogeneous and isotropic", "airlight", usual,
                     random_pictures(options, 8, 128, 2, lit(Air::kHomogeneous))});
     sets.push_back({"random, isotropic with Gaussians", "airlight", smallest,
-                    random_pictures(options, 4, 128, 3, lit(Air::kGaussians))});
-    sets.push_back({"random, any medium", "airlight", smallest, random_pictures(options, 4, 128, 4, lit(Air::kAny))});
+                    random_pictures(options, 4, 96, 3, lit(Air::kGaussians))});
+    sets.push_back({"random, any medium", "airlight", smallest, random_pictures(options, 4, 96, 4, lit(Air::kAny))});
     sets.push_back({"path-traced scenes, one scattering", "airlight", small, truth_pictures(options, true)});
-    sets.push_back({"demo frames, lamps as lights", "airlight", small,
-                    street(options, "street_fog.json", lit_street(options), options.quick ? 8 : 4)});
+    sets.push_back(
+        {"demo frames, lamps as lights", "airlight", small, street(options, "street_fog.json", lit_street(options), 8)});
     std::erase_if(sets, [](const Set &set) { return set.pictures.empty(); });
     return sets;
 }
