@@ -26,6 +26,7 @@ int main(int argc, char **argv)
     add_info(app, chosen);
     add_calibrate(app, chosen);
     add_compare(app, chosen);
+    add_bench(app, chosen);
     add_effects(app, chosen);
     add_schema(app, chosen);
     add_sheet(app, chosen);

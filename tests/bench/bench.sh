@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
-# Every measurement that docs/accuracy.md quotes, into out/bench/. --quick: the paper's default only.
+# Every measurement that docs/accuracy.md quotes, into out/bench/.
+#   bench.sh [--quick]           all of them; --quick: the paper's default only, and few pictures
+#   bench.sh trade [OPTION...]   error against time alone, see trade.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+if [ "${1:-}" = trade ]; then shift; exec tests/bench/trade.sh "$@"; fi
 out=out/bench
 mkdir -p "$out"
 build/release/bin/filter_bench ${1:+"$1"} "$out/filter.json" "$out/filter.md"
 build/release/bin/airlight_accuracy ${1:+"$1"} "$out/airlight.json" "$out/airlight.md"
 build/release/bin/airlight_bench ${1:+"$1"} "$out/airlight_speed.json" "$out/airlight_speed.md"
 tests/bench/sequence_bench.sh build/release/bin/brume samples/frames "$out"
+tests/bench/trade.sh ${1:+"$1"}
 build/release/bin/effect_tests --gtest_filter='Truth.*:Paper.*:*ResolutionInvariance*:*WholeFilter*' | grep -v '^\[' | tee "$out/accuracy.txt"
 echo "in $out: filter.json, filter.md, airlight.json, airlight.md,
-  airlight_speed.json, airlight_speed.md, sequence.md, accuracy.txt"
+  airlight_speed.json, airlight_speed.md, sequence.md, accuracy.txt,
+  trade.json, trade.md, trade.svg, trade.png"

@@ -16,6 +16,7 @@ void add_plan(CLI::App &app, Action &chosen);
 void add_info(CLI::App &app, Action &chosen);
 void add_calibrate(CLI::App &app, Action &chosen);
 void add_compare(CLI::App &app, Action &chosen);
+void add_bench(CLI::App &app, Action &chosen);
 void add_effects(CLI::App &app, Action &chosen);
 void add_schema(CLI::App &app, Action &chosen);
 void add_sheet(CLI::App &app, Action &chosen);

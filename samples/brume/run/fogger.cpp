@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <numbers>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "environment/environment.hpp"
 #include "run/calibration.hpp"
-#include "run/shot.hpp"
+#include "run/scene.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -19,24 +15,6 @@ namespace {
 
 /// A plan holds its images; a sequence with a moving data window meets a new format with every frame.
 constexpr std::size_t kMostPlans = 4;
-
-std::string read_text(const std::string &path)
-{
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        throw RequestError(fmt::format("{}: scene file cannot be opened for reading", path));
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-brume_image host_image(void *data, int width, int height, int channels)
-{
-    brume_image image = BRUME_IMAGE_INIT;
-    image.channels = std::uint32_t(channels);
-    image.width = width;
-    image.height = height;
-    image.data = data;
-    return image;
-}
 
 /// As brume_quality.detail.
 double detail_of(const ExrFile &file, const ColorChoice &color)
@@ -62,20 +40,19 @@ std::string missing_camera(std::uint32_t missing, const char *reason)
 
 }  // namespace
 
-/// What of one picture the plan and the camera depend on.
-struct Fogger::Shot {
-    brume_format format = BRUME_FORMAT_INIT;
-    brume_camera camera = BRUME_CAMERA_INIT;
-    std::string camera_source;
-};
-
-void FogOptions::add_to(CLI::App &command)
+void FogOptions::add_scene_to(CLI::App &command)
 {
     command.add_option("SCENE", scene, "Scene file (JSON; `brume schema` prints its schema)")->required();
     command.add_option("--backend", backend, "auto (GL where a GPU is found), gl or cpu")->capture_default_str();
     command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")
         ->type_name("EFFECT.PARAM=VALUE")
         ->allow_extra_args(false);
+    picture.add_to(command);
+}
+
+void FogOptions::add_to(CLI::App &command)
+{
+    add_scene_to(command);
     auto *chosen = command.add_option("--quality", preset, "draft, standard, final or reference; before the scene file's")
                        ->check(CLI::IsMember({"draft", "standard", "final", "reference"}))
                        ->type_name("PRESET");
@@ -91,33 +68,19 @@ void FogOptions::add_to(CLI::App &command)
         ->delimiter(',')
         ->type_name("NAME,...")
         ->allow_extra_args(false);
-    picture.add_to(command);
 }
 
 Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_layers(options.layers))
 {
-    const std::string text = read_text(options.scene);
+    const SceneText text = read_scene(options.scene, options.set);
     options.picture.depth_kind();
     options.picture.sky();
     context_ = create_context(options.backend);
     load_calibration(context_.get());
-    brume_scene scene = nullptr;
-    check_request(context_.get(),
-                  brume_scene_create_from_text(context_.get(), text.data(), text.size(), options.scene.c_str(), &scene), "");
-    scene_.reset(scene);
-    for (const std::string &set : options.set) {
-        const auto equals = set.find('=');
-        const auto dot = set.rfind('.', equals);
-        if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
-            throw RequestError(fmt::format("--set '{}': expected EFFECT.PARAM=VALUE", set));
-        const std::string effect = set.substr(0, dot), parameter = set.substr(dot + 1, equals - dot - 1),
-                          value = set.substr(equals + 1);
-        check_request(context_.get(), brume_scene_set_text(scene, effect.c_str(), parameter.c_str(), value.c_str()),
-                      "--set " + set);
-    }
+    scene_ = make_scene(context_.get(), text);
+    const brume_scene scene = scene_.get();
     ask_for_quality();
     check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
-    resolve_environment(context_.get(), scene);
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
     for (const LayerOutput &output : outputs_)
         if (output.flag == BRUME_OUTPUT_LIGHT_AIRLIGHT && output.light >= scene_info_.light_count)
@@ -190,31 +153,12 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-Fogger::Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
+Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
 {
-    Shot shot;
-    const PartInfo &part = file.parts()[color.part];
-    const Imf::Header &header = file.header(color.part);
-    const Imath::Box2i &display = header.displayWindow();
-    shot.format = format_of(part.data_window, display, options_.picture);
+    Shot shot =
+        tool::shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
     for (const LayerOutput &output : outputs_)
         shot.format.outputs |= output.flag;
-
-    Camera camera = options_.picture.camera_asked(header);
-    Camera metadata = camera_from_metadata(header);
-    if (scene_camera_ & BRUME_CAMERA_FIELD_OF_VIEW)
-        metadata.projection.reset();
-    if (scene_camera_ & BRUME_CAMERA_POSE)
-        metadata.pose.reset();
-    camera.fill_from(metadata);
-    const auto source = [&](std::uint32_t flag, const std::string &name, bool given) {
-        return given ? name : scene_camera_ & flag ? "scene file" : "none";
-    };
-    shot.camera_source =
-        fmt::format("field of view: {}; pose: {}",
-                    source(BRUME_CAMERA_FIELD_OF_VIEW, camera.projection_source, camera.projection.has_value()),
-                    source(BRUME_CAMERA_POSE, camera.pose_source, camera.pose.has_value()));
-    shot.camera = camera_of(camera, display);
     return shot;
 }
 

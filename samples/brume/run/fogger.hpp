@@ -11,6 +11,7 @@
 #include "metrics/metrics.hpp"
 #include "run/layers.hpp"
 #include "run/sdk.hpp"
+#include "run/shot.hpp"
 
 namespace brume::tool {
 
@@ -23,6 +24,7 @@ struct FogOptions {
     PictureOptions picture;
 
     void add_to(CLI::App &command);
+    void add_scene_to(CLI::App &command);  ///< all but `layers`
 };
 
 struct PassTime {
@@ -55,7 +57,6 @@ public:
     const brume_scene_info &scene_info() const { return scene_info_; }
 
 private:
-    struct Shot;
     void ask_for_quality();
     Shot shot_of(const ExrFile &file, const ColorChoice &color) const;
 

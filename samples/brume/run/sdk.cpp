@@ -49,6 +49,16 @@ void check_request(brume_context context, brume_status status, const std::string
         throw RequestError(what + (what.empty() ? "" : ": ") + sdk_message(context, status));
 }
 
+brume_image host_image(void *data, int width, int height, int channels)
+{
+    brume_image image = BRUME_IMAGE_INIT;
+    image.channels = std::uint32_t(channels);
+    image.width = width;
+    image.height = height;
+    image.data = data;
+    return image;
+}
+
 const char *backend_name(std::uint32_t backend)
 {
     return backend == BRUME_BACKEND_GL ? "gl" : "cpu";

@@ -29,6 +29,8 @@ ContextHandle create_context(const std::string &backend);
 /// Throws RequestError where the library refuses: for what comes from the command line or the scene file.
 void check_request(brume_context context, brume_status status, const std::string &what);
 
+brume_image host_image(void *data, int width, int height, int channels);
+
 const char *backend_name(std::uint32_t backend);
 
 }  // namespace brume::tool

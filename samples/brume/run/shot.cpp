@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace brume::tool {
 
 brume_format format_of(const Imath::Box2i &data, const Imath::Box2i &display, const PictureOptions &options)
@@ -43,6 +45,29 @@ brume_camera camera_of(const Camera &camera, const Imath::Box2i &display)
         std::copy(camera.pose->begin(), camera.pose->end(), result.camera_to_world);
     }
     return result;
+}
+
+Shot shot_of(const Imf::Header &header, const Imath::Box2i &data, const PictureOptions &options, std::uint32_t scene_camera)
+{
+    Shot shot;
+    const Imath::Box2i &display = header.displayWindow();
+    shot.format = format_of(data, display, options);
+    Camera camera = options.camera_asked(header);
+    Camera metadata = camera_from_metadata(header);
+    if (scene_camera & BRUME_CAMERA_FIELD_OF_VIEW)
+        metadata.projection.reset();
+    if (scene_camera & BRUME_CAMERA_POSE)
+        metadata.pose.reset();
+    camera.fill_from(metadata);
+    const auto source = [&](std::uint32_t flag, const std::string &name, bool given) {
+        return given ? name : scene_camera & flag ? "scene file" : "none";
+    };
+    shot.camera_source =
+        fmt::format("field of view: {}; pose: {}",
+                    source(BRUME_CAMERA_FIELD_OF_VIEW, camera.projection_source, camera.projection.has_value()),
+                    source(BRUME_CAMERA_POSE, camera.pose_source, camera.pose.has_value()));
+    shot.camera = camera_of(camera, display);
+    return shot;
 }
 
 }  // namespace brume::tool

@@ -1,0 +1,96 @@
+#include "bench/sample.hpp"
+
+#include <fmt/format.h>
+
+#include "colour/color_manager.hpp"
+#include "exr/frame.hpp"
+#include "run/sequence.hpp"
+#include "support/error.hpp"
+
+namespace brume::tool {
+namespace {
+
+std::vector<float> averaged(const std::vector<float> &pixels, int width, int height, int channels, int factor)
+{
+    const int w = width / factor, h = height / factor;
+    std::vector<float> out(std::size_t(w) * std::size_t(h) * std::size_t(channels));
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x)
+            for (int c = 0; c < channels; ++c) {
+                double sum = 0;
+                for (int j = 0; j < factor; ++j)
+                    for (int i = 0; i < factor; ++i)
+                        sum += pixels[(std::size_t(y * factor + j) * std::size_t(width) + std::size_t(x * factor + i)) *
+                                          std::size_t(channels) +
+                                      std::size_t(c)];
+                out[(std::size_t(y) * std::size_t(w) + std::size_t(x)) * std::size_t(channels) + std::size_t(c)] =
+                    float(sum / (factor * factor));
+            }
+    return out;
+}
+
+}  // namespace
+
+Picture picture_of(const std::vector<float> &pixels, int width, int height, int channels)
+{
+    Picture picture{0, 0, width, height, {}};
+    picture.rgb.reserve(3 * pixels.size() / std::size_t(channels));
+    for (std::size_t i = 0; i < pixels.size(); i += std::size_t(channels))
+        picture.rgb.insert(picture.rgb.end(), pixels.begin() + std::ptrdiff_t(i), pixels.begin() + std::ptrdiff_t(i) + 3);
+    return picture;
+}
+
+Sample load_sample(const FrameFile &file, const PictureOptions &options, std::uint32_t scene_camera,
+                   const std::string &truth)
+{
+    const ColorManager colors;
+    OpenFrame open = open_frame(file, options, {});
+    const DepthSource depth{open.depth_file ? &*open.depth_file : nullptr, open.depth};
+    const Imf::Header &header = open.file.header(open.color.part);
+    const Shot shot = shot_of(header, open.file.parts()[open.color.part].data_window, options, scene_camera);
+    Sample sample;
+    sample.name = file.input.string();
+    sample.format = shot.format;
+    sample.camera = shot.camera;
+    sample.frame = file.frame;
+    sample.weights = colors.luminance_weights(header);
+    Frame frame = read_frame(std::move(open.file), open.color, &depth);
+    sample.channels = frame.channels;
+    sample.color = std::move(frame.pixels);
+    sample.depth = std::move(frame.depth);
+    if (!truth.empty()) {
+        ExrFile truth_file(truth);
+        const ColorChoice color = resolve_color(truth_file, options.layers);
+        const Frame other = read_frame(std::move(truth_file), color, nullptr);
+        if (other.width != frame.width || other.height != frame.height)
+            throw RequestError(fmt::format("--truth {}: {} x {} pixels; expected {} x {}, as {} has", truth, other.width,
+                                           other.height, frame.width, frame.height, sample.name));
+        sample.truth = picture_of(other.pixels, other.width, other.height, other.channels);
+    }
+    return sample;
+}
+
+Sample reduced(const Sample &sample, int factor)
+{
+    Sample out = sample;
+    brume_format &f = out.format;
+    f.width /= factor;
+    f.height /= factor;
+    f.display_x /= factor;
+    f.display_y /= factor;
+    f.display_width /= factor;
+    f.display_height /= factor;
+    out.color = averaged(sample.color, sample.width(), sample.height(), sample.channels, factor);
+    out.depth.resize(std::size_t(f.width) * std::size_t(f.height));
+    for (int y = 0; y < f.height; ++y)
+        for (int x = 0; x < f.width; ++x)
+            out.depth[std::size_t(y) * std::size_t(f.width) + std::size_t(x)] =
+                sample.depth[std::size_t(y * factor + factor / 2) * std::size_t(sample.width()) +
+                             std::size_t(x * factor + factor / 2)];
+    if (sample.truth)
+        out.truth =
+            Picture{0, 0, f.width, f.height, averaged(sample.truth->rgb, sample.width(), sample.height(), 3, factor)};
+    return out;
+}
+
+}  // namespace brume::tool
