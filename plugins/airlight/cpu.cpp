@@ -136,7 +136,7 @@ brume_status CpuPasses::compose()
             const vec4 source = load(color_, x, y);
             const Ray ray = pixel_ray(camera_, pixel_centre(x, y), *at(depth_, x, y));
             const float density = density_to(medium_, ray, gaussian_density_.data ? *at(gaussian_density_, x, y) : 0.0f);
-            const vec3 t = transmittance(medium_, density);
+            const vec3 t = shares_of(medium_, density).straight;  // as other effects have it, bit for bit
             const vec3 airlight = state_.lit && !ray.keep ? at_pixel(radiance_, ivec2(x, y), ray.distance) : vec3(0.0f);
             const vec3 result = state_.attenuates
                                     ? compose_radiance(vec3(source), t, airlight + emitted(medium_, density), limit)

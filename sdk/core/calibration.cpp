@@ -14,8 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double most_seconds = 15;  // after which nothing more is begun
-constexpr int rounds = 3;
+constexpr double most_seconds = 8;  // after which nothing more is begun
+constexpr int rounds = 2;
 
 // One of each kind of medium and light that passes cost differently for.
 constexpr const char *scenes[] = {
@@ -31,7 +31,7 @@ constexpr const char *scenes[] = {
           {"type":"gaussian","center":[0,0,-10],"scale":0.3,"amplitude":2},{"type":"gaussian","center":[5,1,-15],"scale":0.2,"amplitude":2},
           {"type":"gaussian","center":[-6,0,-18],"scale":0.25,"amplitude":2},{"type":"gaussian","center":[2,-2,-8],"scale":0.5,"amplitude":2}]},
         "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}]})"};
-constexpr std::pair<int, int> sizes[] = {{192, 108}, {480, 270}};
+constexpr std::pair<int, int> sizes[] = {{192, 108}, {384, 216}};
 
 // A floor that recedes under a sky, boxes on it, and lamps.
 struct TestFrame {

@@ -124,10 +124,12 @@ PURE float gaussian_integral(IN(Gaussian) g, vec3 origin, vec3 direction, float 
 // to 1e-4 of the former only.
 PURE vec2 profile_density_moment(IN(Profile) p, float distance)
 {
-    // In proportion, so that what is before the middle of a long way stays before it.
-    float shrunk = min(p.scale, gaussian_limit / max(max(abs(p.middle), distance), R(1e-30)));
-    float a = -shrunk * p.middle;
-    float width = max(shrunk * distance, R(1e-30));
+    float a = clamp(-p.scale * p.middle, -gaussian_limit, gaussian_limit);
+    float width = p.scale * distance;
+    // Cut off at both ends alike, so that what is before the middle of a long way stays before it.
+    if (width >= gaussian_limit || abs(a) >= gaussian_limit)
+        width = clamp(p.scale * (distance - p.middle), -gaussian_limit, gaussian_limit) - a;
+    width = max(width, R(1e-30));
     float area = gaussian_area(a, width);
     float b = a + width;
     float moment = R(0.0);

@@ -37,7 +37,7 @@ void main()
     vec4 source = texelFetch(color, p, 0);
     Ray ray = pixel_ray(brume_camera, vec2(p) + 0.5, texelFetch(depth, p, 0).r);
     float density = density_to(brume_medium, ray, texelFetch(gaussian_density, p, 0).r);
-    vec3 t = transmittance(brume_medium, density);
+    vec3 t = shares_of(brume_medium, density).straight;  // as other effects have it, bit for bit
     vec3 added = vec3(0.0);
     vec3 airlight = vec3(0.0);
 #if LIT

@@ -60,6 +60,7 @@ const brume_effect effect{
     .plan = plan,
     .execute = execute,
     .destroy = destroy,
+    .offer = nullptr,
 };
 
 }  // namespace

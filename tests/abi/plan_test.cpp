@@ -76,9 +76,9 @@ TEST_P(Plans, DropWhatTheSceneDoesNotNeed)
         return names;
     };
     EXPECT_EQ(names(only_absorption, true), "compose ");
-    EXPECT_EQ(names(only_absorption, false), "pyramid ");
+    EXPECT_EQ(names(only_absorption, false), "airlight pyramid ");
     EXPECT_EQ(names(foggy, true), "scatter downsample smooth compose ");
-    EXPECT_EQ(names(foggy, false), "");
+    EXPECT_EQ(names(foggy, false), "airlight ");
     std::string with_setting = foggy;
     with_setting.insert(with_setting.rfind('}'), ",\"effects\":{\"multiscatter\":{\"masking\":false}}");
     EXPECT_EQ(names(with_setting.c_str(), false), "settings ");

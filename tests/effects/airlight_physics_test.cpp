@@ -97,8 +97,9 @@ TEST(AirlightReference, IsTheExhaustiveQuadrature)
         const Result r = run(cpu(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth,
                              Options{{}, BRUME_OUTPUT_AIRLIGHT});
         EXPECT_LT(Sampled(scene, frame, 20).errors(r.airlight).back(), 1e-4) << name;
-        if (gl())
+        if (gl()) {
             EXPECT_THROW(run(*gl(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth), Failure);
+        }
     }
 }
 

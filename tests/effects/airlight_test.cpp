@@ -48,16 +48,6 @@ double largest(const Picture &p)
     return *std::max_element(p.data.begin(), p.data.end());
 }
 
-// Colour channels, without the alpha.
-Picture rgb(const Picture &p)
-{
-    Picture out(p.width, p.height, 3);
-    for (int y = 0; y < p.height; ++y)
-        for (int x = 0; x < p.width; ++x)
-            std::copy_n(p.at(x, y), 3, out.at(x, y));
-    return out;
-}
-
 }  // namespace
 
 TEST_P(AirlightOn, AloneIsTheAttenuatedImagePlusAirlight)

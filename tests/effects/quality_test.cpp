@@ -54,7 +54,7 @@ TEST(Quality, MoreTimeIsNeverMoreError)
 
 TEST(Quality, ParametersThatAreSetStay)
 {
-    const std::string asked = ",\"quality\":\"draft\"}";
+    const std::string asked = ",\"quality\":{\"preset\":\"draft\",\"transmittance\":0.5,\"detail\":1}}";
     auto quality_of = [&](const std::string &parameters) {
         std::string text = scene("\"scattering\":0.02", parameters);
         text.back() = ' ';

@@ -328,10 +328,12 @@ TEST(Continuity, CalibratedTable)
     const Images values(multiscatter::spread_values(source), 1);
     f32::Calibrated f{};
     f.top = top;
+    f.step = source.step;
     f.first_place = float(multiscatter::first_place(source));
     f.per_reach = std::exp2(-f.first_place);
     f64::Calibrated g{};
     g.top = top;
+    g.step = source.step;
     g.first_place = f.first_place;
     g.per_reach = f.per_reach;
     g.detour = f64::vec3(0.01);

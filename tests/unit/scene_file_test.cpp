@@ -264,7 +264,7 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
          "keys"},
         {R"("quality": {})", R"(2:12: quality: nothing is asked; expected a preset, max_error or budget_ms)"},
         {R"("quality": {"preset": "draft", "budget_ms": 5})",
-         R"(2:32: "preset" beside "budget_ms"; expected one of them: they say the same thing)"},
+         R"(2:32: "budget_ms" beside "preset"; expected one of them: they say the same thing)"},
         {R"("quality": "fine")", R"(2:12: quality: "fine"; expected one of draft, standard, final, reference)"},
         {R"("quality": {"max_error": 0})", R"(2:26: quality.max_error: 0; expected a number from 1e-06 to 10)"},
         {R"("quality": {"max_eror": 1})",

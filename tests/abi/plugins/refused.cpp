@@ -50,6 +50,7 @@ Table table{{
     .plan = plan,
     .execute = execute,
     .destroy = destroy,
+    .offer = nullptr,
 }};
 
 void make_choice(const char *choices, double default_number)
