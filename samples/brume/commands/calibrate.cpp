@@ -20,16 +20,20 @@ int calibrate(const std::string &backend, std::filesystem::path file)
         file = calibration_file(context.get());
     if (file.empty())
         throw RequestError("neither XDG_CACHE_HOME nor HOME names a folder; expected --output FILE");
-    check_request(context.get(), brume_context_calibrate(context.get()), "calibrate");
-    std::string text(brume_context_calibration(context.get(), nullptr, 0), '\0');
-    brume_context_calibration(context.get(), text.data(), text.size());
-    text.pop_back();
     std::error_code ignored;
     std::filesystem::create_directories(file.parent_path(), ignored);
-    PendingFile pending(file);
-    if (!(std::ofstream(pending.path(), std::ios::binary) << text).flush())
-        throw RequestError(fmt::format("{}: cannot be written", file.string()));
-    pending.commit();
+    try {
+        PendingFile pending(file);
+        check_request(context.get(), brume_context_calibrate(context.get()), "calibrate");
+        std::string text(brume_context_calibration(context.get(), nullptr, 0), '\0');
+        brume_context_calibration(context.get(), text.data(), text.size());
+        text.pop_back();
+        if (!(std::ofstream(pending.path(), std::ios::binary) << text).flush())
+            throw RequestError(fmt::format("{}: cannot be written", file.string()));
+        pending.commit();
+    } catch (const FrameError &e) {
+        throw RequestError(e.what());
+    }
     fmt::print("{}\n", file.string());
     return kDone;
 }
