@@ -164,8 +164,12 @@ TEST_P(Table, EveryConditionForEveryEffectAndTier)
 {
     Figures transmittance(std::string(GetParam()) + ", transmittance against double"),
         airlight(std::string(GetParam()) + ", airlight against the reference tier"), backends("gl against cpu");
-    size_t cells = 0;
+    size_t cells = 0, conditions = 0;
     for (const Condition &c : rows()) {
+        // A minute of software GL for all of them; neighbours differ by one value.
+        if (on_gl && (&c - rows().data()) % 3 != 0)
+            continue;
+        ++conditions;
         const bool wants_reference = !on_gl || !c.about_lights();
         std::optional<Result> reference;
         for (const Column &column : columns()) {
@@ -209,5 +213,5 @@ TEST_P(Table, EveryConditionForEveryEffectAndTier)
             }
         }
     }
-    printf("%zu conditions, %zu cells\n", rows().size(), cells);
+    printf("%zu of %zu conditions, %zu cells\n", conditions, rows().size(), cells);
 }
