@@ -7,6 +7,8 @@ file(COPY_FILE ${scene} ${WORK}/fog.json)
 get_filename_component(bin ${TOOL} DIRECTORY)
 set(ENV{PATH} "${bin}:$ENV{PATH}")
 set(ENV{OCIO} "")
+# What is calibrated here is not to be kept for the user.
+set(ENV{XDG_CACHE_HOME} ${WORK}/cache)
 execute_process(COMMAND ${MAKE_FRAMES} ${WORK} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND sh -x ${SCRIPT} WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
 foreach(file fogged/shot.0003.exr out/shot.0002.exr out/wide.exr out/aces.png out/layers.exr out/stats.json out/sky.exr)
