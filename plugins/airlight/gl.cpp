@@ -1,6 +1,7 @@
 // The effect on GL: the passes of shaders/passes/airlight_*.comp.
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/uniforms.hpp"
@@ -109,10 +110,7 @@ private:
     brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
                      std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
     {
-        std::erase_if(bindings, [](const brume_plugin_binding &b) { return !b.image; });
-        brume_plugin_pass pass{sizeof pass,     uint32_t(bindings.size()), name,   program, bindings.data(),
-                               uniforms.data(), uint32_t(uniforms.size()), grid.x, grid.y,  0};
-        return services_.run(host_, &pass);
+        return run_pass(services_, host_, name, program, std::move(bindings), uniforms, grid.x, grid.y);
     }
 
     const brume_services &services_;

@@ -1,6 +1,7 @@
 // Kernel `calibrated` on GL: shaders/passes/multiscatter_{spread,share,smooth,collect,compose}.comp.
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibrated.h"
@@ -108,7 +109,6 @@ private:
     brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
                      std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
     {
-        std::erase_if(bindings, [](const brume_plugin_binding &b) { return !b.image; });
         const auto filter = filter_uniforms(filter_);
         uniforms.insert(uniforms.end(), filter.begin(), filter.end());
         uniforms.insert(uniforms.end(), {integer("calibrated.top", calibrated_.top),
@@ -118,9 +118,7 @@ private:
                                          number("calibrated.first_place", calibrated_.first_place),
                                          number("calibrated.per_reach", calibrated_.per_reach),
                                          {"calibrated.detour", BRUME_UNIFORM_FLOAT, 3, 1, 0, &calibrated_.detour}});
-        brume_plugin_pass pass{sizeof pass,     uint32_t(bindings.size()), name,   program, bindings.data(),
-                               uniforms.data(), uint32_t(uniforms.size()), grid.x, grid.y,  0};
-        return services_.run(host_, &pass);
+        return run_pass(services_, host_, name, program, std::move(bindings), uniforms, grid.x, grid.y);
     }
 
     const brume_services &services_;
