@@ -10,6 +10,7 @@
 namespace brume {
 namespace maths_float {
 #include "scene_maths.inc"
+#include "scene_data.inc"
 
 inline Texture texture_of(const brume_plugin_pixels &p)
 {
@@ -19,5 +20,6 @@ inline Texture texture_of(const brume_plugin_pixels &p)
 
 namespace maths_double {
 #include "scene_maths.inc"
+#include "scene_data.inc"
 }  // namespace maths_double
 }  // namespace brume

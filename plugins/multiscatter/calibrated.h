@@ -33,8 +33,6 @@ struct LevelRows {
 };
 LevelRows level_rows(const State &state, int level);
 
-// `uniform Filter multiscatter`, member by member.
-std::vector<brume_plugin_uniform> filter_uniforms(const brume::maths_float::Filter &f);
 std::string_view pass_text(std::string_view name);
 
 }  // namespace multiscatter

@@ -16,7 +16,7 @@ using namespace brume_uniforms;
 class GlPasses : public CalibratedPasses {
 public:
     GlPasses(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
-        : services_(services), host_(host), state_(state), frame_(frame), filter_(filter_of(state, *frame.scene)),
+        : services_(services), host_(host), state_(state), frame_(frame),
           calibrated_(calibrated_of(state, *frame.scene, state.tabled)), size_(state.width, state.height)
     {
     }
@@ -109,8 +109,6 @@ private:
     brume_status run(const char *name, brume_program program, std::vector<brume_plugin_binding> bindings,
                      std::vector<brume_plugin_uniform> uniforms, ivec2 grid)
     {
-        const auto filter = filter_uniforms(filter_);
-        uniforms.insert(uniforms.end(), filter.begin(), filter.end());
         uniforms.insert(uniforms.end(), {integer("calibrated.top", calibrated_.top),
                                          integer("calibrated.step", calibrated_.step),
                                          integer("calibrated.coverage", calibrated_.coverage),
@@ -125,7 +123,6 @@ private:
     brume_host host_;
     const State &state_;
     const brume_plugin_frame &frame_;
-    Filter filter_;
     Calibrated calibrated_;
     ivec2 size_;
 };

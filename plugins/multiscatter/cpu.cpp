@@ -32,7 +32,7 @@ Pixel pixel_at(const Frame &frame, int x, int y)
     vec2 gaussians(0.0f);
     if (const float *g = frame.gaussian_density.data ? at(frame.gaussian_density, x, y) : nullptr)
         gaussians = vec2(g[0], g[1]);
-    return pixel_in_medium(frame.medium, frame.camera, frame.filter, pixel_centre(x, y), *at(frame.depth, x, y), gaussians);
+    return placed_pixel(frame.medium, frame.camera, frame.filter, pixel_centre(x, y), *at(frame.depth, x, y), gaussians);
 }
 
 brume_status scatter(Frame &frame)

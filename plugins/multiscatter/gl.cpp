@@ -12,6 +12,9 @@ namespace multiscatter {
 using namespace brume::maths_float;
 using namespace brume_uniforms;
 
+namespace {
+
+// `uniform Filter multiscatter`, member by member.
 std::vector<brume_plugin_uniform> filter_uniforms(const Filter &f)
 {
     return {integer("multiscatter.top", f.top),
@@ -29,8 +32,6 @@ std::vector<brume_plugin_uniform> filter_uniforms(const Filter &f)
             number("multiscatter.dense_width", f.dense_width),
             number("multiscatter.separation_level", f.separation_level)};
 }
-
-namespace {
 
 class Frame {
 public:

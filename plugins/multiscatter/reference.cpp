@@ -23,7 +23,7 @@ Pixel ReferenceFrame::pixel_at(int x, int y) const
     vec2 gaussians(0);
     if (const float *v = g.data ? g.data + y * g.row_stride + int64_t(x) * g.channels : nullptr)
         gaussians = vec2(v[0], v[1]);
-    return pixel_in_medium(medium, camera, filter, vec2(x + 0.5, y + 0.5), depth_at(x, y), gaussians);
+    return placed_pixel(medium, camera, filter, vec2(x + 0.5, y + 0.5), depth_at(x, y), gaussians);
 }
 
 namespace {

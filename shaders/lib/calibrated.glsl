@@ -5,7 +5,7 @@
 // rest goes on to the coarser levels. A pixel then collects what all levels have at its place, as far as it was scattered in
 // front of what the pixel shows. What the medium scatters toward it from where the image has nothing comes from `ambient`.
 // The same sums over the shares alone (`coverage`) tell how much that is, so that a uniform image stays as it is (the white
-// furnace). Needs radiance.glsl, pyramid.glsl, data.glsl, upsample.glsl.
+// furnace). Needs radiance.glsl, pyramid.glsl, data.glsl.
 //
 // At reduced resolution all of it works on squares of pixels, of which one stands for the depth of all, but for what stays in
 // a pixel of its own light.
@@ -39,21 +39,14 @@ PURE bool collects(IN(Calibrated) f, int level)
 const float least_light = R(1e-20);
 const float most_light = R(1e30);
 
-PURE float table_value(sampler2D table, int first, int count, float place)
-{
-    int i = clamp(int(place), 0, count - 2);
-    float f = clamp(place - float(i), R(0.0), R(1.0));
-    return mix(data_texel(table, first + i).x, data_texel(table, first + i + 1).x, f);
-}
-
 PURE float staying(sampler2D table, int level, float place)
 {
-    return table_value(table, level * spread_row, spread_places, place);
+    return data_between(table, level * spread_row, spread_places, place);
 }
 
 PURE float visible_share(sampler2D table, int level, float ratio)
 {
-    return table_value(table, level * spread_row + spread_places, visible_places, ratio * float(visible_places - 1));
+    return data_between(table, level * spread_row + spread_places, visible_places, ratio * float(visible_places - 1));
 }
 
 // P as a place in the table. octaves: log2 of P.
@@ -126,68 +119,32 @@ PURE Spreading spreading_source(IN(Medium) medium, IN(Calibrated) f, sampler2D t
                      R(1.0) - staying(table, 0, place));
 }
 
-// The light of a square of pixels.
-PURE vec3 mean_of_square(sampler2D color, ivec2 texel, int reduction, ivec2 size)
+// What a texel passes on, by what reached it from the finer level.
+PURE Spreading going_on(IN(Medium) medium, IN(Calibrated) f, sampler2D table, vec4 reached, vec4 coverage, int level)
 {
-    vec3 sum = vec3(R(0.0));
-    for (int j = 0; j < reduction; ++j)
-        for (int i = 0; i < reduction; ++i)
-            sum += finite_or_zero(vec3(texelFetch(color, min(texel * reduction + ivec2(i, j), size - 1), 0)));
-    return sum / float(reduction * reduction);
+    float nearness = nearness_of(medium, reached);
+    float share = R(1.0);
+    if (level != f.top && collects(f, level))
+        share = R(1.0) / (R(1.0) + staying(table, level, -R(2.0) * log2(nearness)));
+    return passed_on(medium, vec3(reached), coverage_of(f, coverage), nearness, share);
 }
 
-// The share of a source's scattered light that is no other effect's: of listed lights the first scattering is.
-PURE vec3 shown_share(sampler2D lights, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth, float p)
+// What stays at a texel, by what it passes on.
+PURE Spreading staying_of(IN(Medium) medium, IN(Calibrated) f, sampler2D table, vec4 passed, vec4 coverage, int level)
 {
-    if (count == 0 || !shows_light(lights, count, camera, pixel_ray(camera, pixel, raw_depth)))
-        return vec3(R(1.0));
-    return rescattered_share(medium, p) / max(scattered_share(medium, p), vec3(R(1e-30)));
-}
-
-// One texel of level `level` from the finer level, whose first row in its images is finer_row.
-PURE Spreading spreading_texel(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D finer, sampler2D finer_coverage,
-                               ivec2 finer_size, int finer_row, ivec2 texel, int level)
-{
-    vec4 sum = vec4(R(0.0));
-    vec4 coverage = vec4(R(0.0));
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) {
-            ivec2 from = finer_texel(texel, 4, i, j, finer_size, finer_row);
-            float weight = kernel_weight(4, i) * kernel_weight(4, j);
-            sum += weight * texelFetch(finer, from, 0);
-            coverage += weight * texelFetch(finer_coverage, from, 0);
-        }
-    float nearness = nearness_of(medium, sum);
-    float share = level == f.top || !collects(f, level) ? R(1.0)
-                                                        : R(1.0) / (R(1.0) + staying(table, level, -R(2.0) * log2(nearness)));
-    return passed_on(medium, vec3(sum), coverage_of(f, coverage), nearness, share);
+    float nearness = nearness_of(medium, passed);
+    float share = R(1.0);
+    if (level != f.top)
+        share = staying(table, level, -R(2.0) * log2(nearness));
+    return passed_on(medium, vec3(passed), coverage_of(f, coverage), nearness, share);
 }
 
 // Fourth roots: a lamp counts for little in what the surroundings are taken to be, whose light it adds to by itself. W counts.
 PURE vec4 ambient_source(vec3 radiance, vec3 coverage)
 {
-    if (coverage.x + coverage.y + coverage.z <= R(1e-30))
-        return vec4(R(0.0));
+    float counts = choose(coverage.x + coverage.y + coverage.z > R(1e-30), R(1.0), R(0.0));
     vec3 mean = max(radiance / max(coverage, vec3(R(1e-35))), vec3(R(0.0)));
-    return vec4(sqrt(sqrt(min(mean, vec3(most_light)))), R(1.0));
-}
-
-// From level 0 for level 1, from the surroundings of the finer level for others.
-PURE vec4 ambient_texel(IN(Calibrated) f, sampler2D finer, sampler2D finer_coverage, sampler2D finer_ambient, ivec2 finer_size,
-                        int finer_row, ivec2 texel, int level)
-{
-    vec4 sum = vec4(R(0.0));
-    for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 2; ++i) {
-            ivec2 from = finer_texel(texel, 2, i, j, finer_size, finer_row);
-            if (level > 1) {
-                sum += R(0.25) * texelFetch(finer_ambient, from, 0);
-            } else {
-                sum += R(0.25) * ambient_source(vec3(texelFetch(finer, from, 0)),
-                                                coverage_of(f, texelFetch(finer_coverage, from, 0)));
-            }
-        }
-    return sum;
+    return vec4(counts * sqrt(sqrt(min(mean, vec3(most_light)))), counts);
 }
 
 // Of the coarsest level, which is a single texel unless the pyramid was told to stop before.
@@ -198,37 +155,6 @@ PURE vec3 ambient_radiance(sampler2D stack, IN(Pyramid) pyramid, vec2 pixel)
                                                   : fetch_linear(stack, region, level_position(pixel, pyramid.top));
     vec3 root = vec3(sum) / max(sum.w, R(1e-30));
     return root * root * root * root;
-}
-
-// Beyond an edge the level is mirrored, which loses no light.
-PURE int mirrored(int i, int size)
-{
-    return clamp(i < 0 ? -1 - i : i >= size ? 2 * size - 1 - i : i, 0, size - 1);
-}
-
-// (1 4 6 4 1) / 16 for i from -2 to 2.
-PURE float binomial_weight(int i)
-{
-    return i == 0 ? R(0.375) : abs(i) == 1 ? R(0.25) : R(0.0625);
-}
-
-// What stays at a texel, from what it passes on, smoothed by a 5 x 5 binomial: round, and its bilinear interpolation shows no
-// creases.
-PURE Spreading stayed(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack, ivec2 size,
-                      int row, ivec2 texel, int level)
-{
-    vec4 sum = vec4(R(0.0));
-    vec4 coverage = vec4(R(0.0));
-    for (int j = -2; j <= 2; ++j)
-        for (int i = -2; i <= 2; ++i) {
-            ivec2 t = ivec2(mirrored(texel.x + i, size.x), mirrored(texel.y + j, size.y));
-            float weight = binomial_weight(i) * binomial_weight(j);
-            sum += weight * texelFetch(stack, ivec2(t.x, t.y + row), 0);
-            coverage += weight * texelFetch(coverage_stack, ivec2(t.x, t.y + row), 0);
-        }
-    float nearness = nearness_of(medium, sum);
-    float share = level == f.top ? R(1.0) : staying(table, level, -R(2.0) * log2(nearness));
-    return passed_on(medium, vec3(sum), coverage_of(f, coverage), nearness, share);
 }
 
 PURE vec3 coverage_at(sampler2D stack, IN(Calibrated) f, IN(Region) region, vec2 position)
@@ -259,29 +185,9 @@ PURE Collected collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, s
         vec4 v = fetch_linear(stack, region, at);
         vec3 covered = coverage_at(coverage_stack, f, region, at);
         float ratio = reach * nearness_of(medium, v);
-        float visible = ratio < R(1.0) ? visible_share(table, k, ratio) : R(1.0);
+        float visible = choose(ratio < R(1.0), visible_share(table, k, ratio), R(1.0));
         sum.radiance += visible * vec3(v);
         sum.coverage += visible * covered;
-    }
-    return sum;
-}
-
-// The same from where it was collected for a pixel of each square. distances: in the fourth channel of the radiance.
-PURE Collected upsampled_collected(IN(Calibrated) f, sampler2D radiance, sampler2D coverage, int reduction, ivec2 size,
-                                   ivec2 pixel, float distance)
-{
-    Corners c = corners_around(pixel, reduction, size);
-    vec4 around[4];
-    vec4 distances;
-    for (int i = 0; i < 4; ++i) {
-        around[i] = texelFetch(radiance, corner_texel(c, i), 0);
-        distances[i] = around[i].w;
-    }
-    vec4 weights = corner_weights(c, distances, distance);
-    Collected sum = Collected(vec3(R(0.0)), vec3(R(0.0)));
-    for (int i = 0; i < 4; ++i) {
-        sum.radiance += weights[i] * vec3(around[i]);
-        sum.coverage += weights[i] * coverage_of(f, texelFetch(coverage, corner_texel(c, i), 0));
     }
     return sum;
 }

@@ -8,12 +8,15 @@ const float density_limit = R(1e30);
 PURE float sinh_series(float q)
 {
     float y2 = R(0.25) * q * q;
-    return R(1.0) + y2 / R(6.0) * (R(1.0) + y2 / R(20.0) * (R(1.0) + y2 / R(42.0) * (R(1.0) + y2 / R(72.0))));
+    return R(1.0) + y2 * R(1.0 / 6.0) *
+                        (R(1.0) + y2 * R(1.0 / 20.0) * (R(1.0) + y2 * R(1.0 / 42.0) * (R(1.0) + y2 * R(1.0 / 72.0))));
 }
 
 PURE float mean_exponential(float q)
 {
-    return q < R(2.0) ? exp(-R(0.5) * q) * sinh_series(q) : (R(1.0) - exp(-q)) / q;
+    Bool small = q < R(2.0);
+    float e = exp(choose(small, -R(0.5) * q, -q));
+    return choose(small, e * sinh_series(q), (R(1.0) - e) / q);
 }
 
 // Iser eq. 4 for one exponential term. term.xyz = b R^T n, term.w = log rho(camera). Measured from whichever end of the
@@ -57,40 +60,4 @@ PURE float density_between(IN(Medium) medium, vec3 origin, vec3 direction, float
     for (int i = 0; i < medium.term_count; ++i)
         p += min(exponential_density_integral(moved_term(medium.terms[i], origin), direction, distance), density_limit);
     return min(p, density_limit);
-}
-
-// int_0^1 s^2 e^(-q s) ds for q >= 0.
-PURE float mean_square_exponential(float q)
-{
-    if (q < R(1.0))
-        return R(1.0) / R(3.0) -
-               q * (R(0.25) - q * (R(0.1) - q * (R(1.0) / R(36.0) -
-               q * (R(1.0) / R(168.0) - q * (R(1.0) / R(960.0) - q * (R(1.0) / R(6480.0) - q * (R(1.0) / R(50400.0) -
-               q * (R(1.0) / R(443520.0) - q * (R(1.0) / R(4354560.0) - q / R(47174400.0))))))))));
-    float e = min(q, R(100.0));
-    return (R(2.0) - exp(-e) * (e * e + R(2.0) * e + R(2.0))) / q / q / q;
-}
-
-// int_0^1 (1 - s)^2 e^(-q s) ds for q >= 0.
-PURE float mean_square_to_end(float q)
-{
-    if (q < R(1.0))
-        return R(1.0) / R(3.0) -
-               q * (R(1.0) / R(12.0) - q * (R(1.0) / R(60.0) - q * (R(1.0) / R(360.0) -
-               q * (R(1.0) / R(2520.0) - q * (R(1.0) / R(20160.0) - q * (R(1.0) / R(181440.0) - q / R(1814400.0)))))));
-    return (R(1.0) - R(2.0) / q + R(2.0) * (R(1.0) - exp(-q)) / q / q) / q;
-}
-
-// int_0^D rho (1 - t/D)^2 dt of the constant and exponential terms: how far from the object the medium sits.
-PURE float density_moment(IN(Medium) medium, vec3 direction, float distance)
-{
-    float m = min(medium.constant * distance / R(3.0), density_limit);
-    for (int i = 0; i < medium.term_count; ++i) {
-        vec4 term = medium.terms[i];
-        float q = distance * dot(vec3(term.x, term.y, term.z), direction);
-        float peak = min(term.w + max(-q, R(0.0)), R(80.0));
-        float mean = q >= R(0.0) ? mean_square_to_end(q) : mean_square_exponential(-q);
-        m += min(distance * mean * exp(peak), density_limit);
-    }
-    return min(m, density_limit);
 }

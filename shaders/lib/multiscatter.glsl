@@ -22,58 +22,22 @@ struct Filter {
     float separation_level; // k_ssc
 };
 
-// ---- sec. 4.1: what the medium does to one pixel
+// ---- sec. 4.1
 
-struct Pixel {
-    float distance;      // [m]
-    float density;       // P
-    float spread;        // W [px]
-    vec3 transmittance;
-    vec3 share;          // L_sc / L
-    vec3 emitted;
-};
-
-// gaussians: their part of P and of its moment.
-PURE Pixel pixel_in_medium(IN(Medium) medium, IN(Camera) camera, IN(Filter) f, vec2 pixel, float raw_depth, vec2 gaussians)
+// With the width that knows where along the ray the medium lies. gaussians: their part of P and of its moment.
+PURE Pixel placed_pixel(IN(Medium) medium, IN(Camera) camera, IN(Filter) f, vec2 pixel, float raw_depth, vec2 gaussians)
 {
+    Pixel p = pixel_in_medium(medium, camera, pixel, raw_depth, gaussians.x);
     Ray ray = pixel_ray(camera, pixel, raw_depth);
-    float p = density_to(medium, ray, gaussians.x);
-    float w = spread_pixels(medium, camera, p);
     if (f.placement != 0 && !ray.keep)
-        w *= placement(density_moment(medium, ray.direction, ray.distance) + gaussians.y, p);
-    Shares shares = shares_of(medium, p);
-    return Pixel(ray.distance, p, w, shares.straight, shares.scattered, emitted(medium, p));
+        p.spread *= placement(density_moment(medium, ray.direction, ray.distance) + gaussians.y, p.density);
+    return p;
 }
 
 struct Sources {
     vec4 spread;     // L_sc, W
     vec4 separated;  // L_ssc, W
 };
-
-// Whether the pixel shows one of the lights, to within its own width. Needs their spheres: point lights are not seen.
-PURE bool shows_light(sampler2D lights, int count, IN(Camera) camera, IN(Ray) ray)
-{
-    float pixel = R(0.7) * max(abs(camera.tangent_scale.x), abs(camera.tangent_scale.y));
-    for (int i = 0; i < count; ++i) {
-        vec4 sphere = data_texel(lights, 4 * i);
-        vec3 center = vec3(sphere);
-        float reach = sphere.w + pixel * length(center);
-        if (sphere.w > R(0.0) && abs(ray.distance - dot(center, ray.direction)) <= reach &&
-            length(cross(center, ray.direction)) <= reach)
-            return true;
-    }
-    return false;
-}
-
-// L_sc / L beside an effect that adds what the lights scatter once: of pixels that show such a light only what is scattered
-// more than once, or its first scattering would be counted twice.
-PURE vec3 share_beside_lights(sampler2D lights, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth,
-                              IN(Pixel) p)
-{
-    if (count > 0 && shows_light(lights, count, camera, pixel_ray(camera, pixel, raw_depth)))
-        return rescattered_share(medium, p.density);
-    return p.share;
-}
 
 // L_sc and, of bright pixels in thin fog, L_ssc (sec. 4.3, radiance separation). W stops where the coarsest level does:
 // the sky's, which has no bound, would drown that of everything near the horizon once it is blurred.
@@ -90,12 +54,6 @@ PURE Sources scattered_sources(IN(Medium) medium, IN(Filter) f, IN(Pixel) pixel,
 }
 
 // ---- sec. 4.2-4.3: one texel of level `level` from the finer level, whose first row in its image is finer_row
-
-PURE ivec2 finer_texel(ivec2 texel, int taps, int i, int j, ivec2 finer_size, int finer_row)
-{
-    ivec2 t = clamp(texel * 2 + ivec2(i, j) - (taps / 2 - 1), ivec2(0), finer_size - 1);
-    return ivec2(t.x, t.y + finer_row);
-}
 
 // (M[k] L[k-1]) * G, and the luminance-weighted mean of W over the same support. Black regions take the plain mean.
 PURE vec4 downsampled_radiance(sampler2D finer, ivec2 finer_size, int finer_row, ivec2 texel, int level, int taps, int masking,
@@ -129,16 +87,6 @@ PURE float downsampled_spread(sampler2D finer, ivec2 finer_size, int finer_row, 
 }
 
 // ---- sec. 4.2, 5: fetching at a pixel and a fractional level
-
-struct Pyramid {
-    ivec2 size;  // of level 0
-    int top;
-};
-
-PURE Region level_region(IN(Pyramid) pyramid, int level)
-{
-    return level <= 0 ? Region(pyramid.size, 0) : Region(level_size(pyramid.size, level), level_row(pyramid.size, level));
-}
 
 // One level, of which level 0 is in `base`. Coarser than K is K.
 PURE vec4 fetch_level(sampler2D base, sampler2D stack, IN(Pyramid) pyramid, int level, vec2 pixel, int mode)

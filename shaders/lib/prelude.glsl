@@ -10,6 +10,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // A literal of the precision that is compiled; C++ needs it spelled out.
 #define R(x) x
 
+// Truth of a pixel's value, and the choice by it. C++ runs several pixels side by side, each with its own truth, and has
+// no ?: for that; `if` and ?: are for what all pixels share. Both values are computed.
+#define Bool bool
+
+float choose(bool which, float a, float b)
+{
+    return which ? a : b;
+}
+
 // By bits: compilers may assume that isnan() and isinf() are false.
 bool is_finite(float x)
 {

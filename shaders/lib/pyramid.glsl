@@ -69,3 +69,20 @@ PURE float soft_step(float edge, float width, float x)
     float t = clamp((x - edge) / max(width, R(1e-20)), R(0.0), R(1.0));
     return t * t * (R(3.0) - R(2.0) * t);
 }
+
+struct Pyramid {
+    ivec2 size;  // of level 0
+    int top;
+};
+
+PURE Region level_region(IN(Pyramid) pyramid, int level)
+{
+    return level <= 0 ? Region(pyramid.size, 0) : Region(level_size(pyramid.size, level), level_row(pyramid.size, level));
+}
+
+// A tap of the kernel that makes a level from the finer one, whose first row in its image is finer_row.
+PURE ivec2 finer_texel(ivec2 texel, int taps, int i, int j, ivec2 finer_size, int finer_row)
+{
+    ivec2 t = clamp(texel * 2 + ivec2(i, j) - (taps / 2 - 1), ivec2(0), finer_size - 1);
+    return ivec2(t.x, t.y + finer_row);
+}

@@ -3,7 +3,8 @@
 // P to what the pixel shows; gaussians: their part of it.
 PURE float density_to(IN(Medium) medium, IN(Ray) ray, float gaussians)
 {
-    return ray.keep ? R(0.0) : min(density_integral(medium, ray.direction, ray.distance) + gaussians, density_limit);
+    return choose(ray.keep, R(0.0),
+                  min(density_integral(medium, ray.direction, ray.distance) + gaussians, density_limit));
 }
 
 PURE float luminance(vec3 weights, vec3 color)
@@ -19,12 +20,6 @@ PURE vec3 optical_depth(IN(Medium) medium, float p)
     return min((medium.scattering + medium.absorption) * p, vec3(optical_depth_limit));
 }
 
-// 1 - e^-x without cancellation, x >= 0.
-PURE float one_minus_exp(float x)
-{
-    return x < R(2.0) ? x * mean_exponential(x) : R(1.0) - exp(-x);
-}
-
 // Where no share of scattered light is wanted beside it, which shares_of() gives at no more cost.
 PURE vec3 transmittance(IN(Medium) medium, float p)
 {
@@ -34,8 +29,15 @@ PURE vec3 transmittance(IN(Medium) medium, float p)
 // e^-x and 1 - e^-x, x >= 0, by one exponential.
 PURE vec2 parted(float x)
 {
-    float e = exp(x < R(2.0) ? -R(0.5) * x : -x);
-    return x < R(2.0) ? vec2(e * e, x * (e * sinh_series(x))) : vec2(e, R(1.0) - e);
+    Bool small = x < R(2.0);
+    float e = exp(choose(small, -R(0.5) * x, -x));
+    return vec2(choose(small, e * e, e), choose(small, x * (e * sinh_series(x)), R(1.0) - e));
+}
+
+// 1 - e^-x without cancellation, x >= 0.
+PURE float one_minus_exp(float x)
+{
+    return parted(x).y;
 }
 
 struct Shares {
@@ -47,8 +49,12 @@ PURE Shares shares_of(IN(Medium) medium, float p)
 {
     vec3 s = medium.scattering * p;
     vec2 x = parted(s.x);
-    vec2 y = s.y == s.x ? x : parted(s.y);
-    vec2 z = s.z == s.x ? x : parted(s.z);
+    vec2 y = x;
+    vec2 z = x;
+    if (medium.scattering != vec3(medium.scattering.x)) {
+        y = parted(s.y);
+        z = parted(s.z);
+    }
     Shares shares = Shares(vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y));
     if (medium.absorption != vec3(R(0.0))) {
         vec3 kept = exp(-min(medium.absorption * p, vec3(optical_depth_limit)));
@@ -86,13 +92,13 @@ PURE vec3 emitted(IN(Medium) medium, float p)
 // A component that is not finite gives no light to others: one bad pixel must not blacken the frame.
 PURE vec3 finite_or_zero(vec3 color)
 {
-    return vec3(is_finite(color.x) ? color.x : R(0.0), is_finite(color.y) ? color.y : R(0.0),
-                is_finite(color.z) ? color.z : R(0.0));
+    return vec3(choose(is_finite(color.x), color.x, R(0.0)), choose(is_finite(color.y), color.y, R(0.0)),
+                choose(is_finite(color.z), color.z, R(0.0)));
 }
 
 PURE float composed(float source, float t, float added, float limit)
 {
-    return is_finite(source) ? clamp(source * t + added, -limit, limit) : source;
+    return choose(is_finite(source), clamp(source * t + added, -limit, limit), source);
 }
 
 // L' = T L + added (Iser sec. 4.4), within what the output holds; a component that is not finite comes back unchanged.

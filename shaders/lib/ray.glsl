@@ -23,7 +23,7 @@ PURE vec3 in_world(IN(Camera) camera, vec3 d)
 struct Ray {
     vec3 direction;  // unit, camera space, looking down -z
     float distance;  // to what the pixel shows [m], 0 to far_away
-    bool keep;       // a far pixel that is to have no medium in front of it
+    Bool keep;       // a far pixel that is to have no medium in front of it
 };
 
 // Camera-space point of the pixel's ray at planar depth 1; pixel centres lie at half-integers.
@@ -37,29 +37,25 @@ PURE vec3 ray_through(IN(Camera) camera, vec2 pixel)
 // far_away for whatever counts as far: NaN, infinities, >= far_distance, <= 0 (see BRUME_DEPTH_... in brume.h).
 PURE float ray_distance(IN(Camera) camera, float raw, float stretch)
 {
-    if (!is_finite(raw))
-        return far_away;
+    Bool is_far = !is_finite(raw);
     float along = raw * camera.metres_per_unit;
     if (camera.depth_kind == depth_inverse) {
-        if (raw <= R(0.0))
-            return far_away;
+        is_far = is_far || raw <= R(0.0);
         along = min(camera.metres_per_unit / raw, far_away);
     } else if (camera.depth_kind == depth_normalized) {
-        if (raw < R(0.0) || raw >= R(1.0))
-            return far_away;
+        is_far = is_far || raw < R(0.0) || raw >= R(1.0);
         along = camera.depth_range.x + raw * (camera.depth_range.y - camera.depth_range.x);
     } else if (camera.depth_kind == depth_device) {
-        float farther_end = camera.depth_range.x < camera.depth_range.y ? R(0.0) : R(1.0);
-        if (raw == farther_end)
-            return far_away;
+        is_far = is_far || raw == choose(camera.depth_range.x < camera.depth_range.y, R(0.0), R(1.0));
         float inverse = mix(camera.depth_range.x, camera.depth_range.y, clamp(raw, R(0.0), R(1.0)));
-        along = inverse > R(1e-30) ? R(1.0) / inverse : far_away;
-    } else if (raw <= R(0.0)) {
-        return camera.nonpositive == nonpositive_near ? R(0.0) : far_away;
+        along = choose(inverse > R(1e-30), R(1.0) / inverse, far_away);
+    } else if (camera.nonpositive == nonpositive_near) {
+        along = max(along, R(0.0));
+    } else {
+        is_far = is_far || raw <= R(0.0);
     }
-    if (along >= camera.far_distance)
-        return far_away;
-    return camera.depth_kind == depth_ray ? along : along * stretch;
+    is_far = is_far || along >= camera.far_distance;
+    return choose(is_far, far_away, camera.depth_kind == depth_ray ? along : along * stretch);
 }
 
 PURE Ray pixel_ray(IN(Camera) camera, vec2 pixel, float raw)
@@ -67,8 +63,7 @@ PURE Ray pixel_ray(IN(Camera) camera, vec2 pixel, float raw)
     vec3 through = ray_through(camera, pixel);
     float stretch = length(through);
     float d = ray_distance(camera, raw, stretch);
-    bool is_far = d >= far_away;
-    if (is_far && camera.sky == sky_clamp)
-        d = camera.sky_distance;
-    return Ray(through / stretch, d, is_far && camera.sky == sky_keep);
+    Bool is_far = d >= far_away;
+    return Ray(through / stretch, choose(is_far && camera.sky == sky_clamp, camera.sky_distance, d),
+               is_far && camera.sky == sky_keep);
 }

@@ -21,7 +21,7 @@ PURE float spread_angle(IN(Medium) medium, float p)
 // or more at the ends by Monte Carlo. moment: the integral above P.
 PURE float placement(float moment, float p)
 {
-    return p > R(0.0) ? sqrt(clamp(R(3.0) * moment / p, R(0.0), R(3.0))) : R(1.0);
+    return choose(p > R(0.0), sqrt(clamp(R(3.0) * moment / p, R(0.0), R(3.0))), R(1.0));
 }
 
 // The same in pixels, which makes the look independent of resolution and field of view.

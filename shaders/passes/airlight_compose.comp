@@ -3,6 +3,7 @@
 #include "ray.glsl"
 #include "density.glsl"
 #include "radiance.glsl"
+#include "corners.glsl"
 #include "upsample.glsl"
 
 uniform Medium brume_medium;

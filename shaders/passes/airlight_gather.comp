@@ -7,6 +7,7 @@
 #include "gaussian.glsl"
 #include "noise.glsl"
 #include "tiles.glsl"
+#include "corners.glsl"
 #include "upsample.glsl"
 #include "phase.glsl"
 #include "light.glsl"

@@ -6,13 +6,13 @@
 #include "spread.glsl"
 #include "pyramid.glsl"
 #include "fetch.glsl"
-#include "multiscatter.glsl"
+#include "pixel.glsl"
+#include "corners.glsl"
 #include "upsample.glsl"
 #include "calibrated.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
-uniform Filter multiscatter;
 uniform Calibrated calibrated;
 uniform int reduction;
 uniform ivec2 image_size;
@@ -30,8 +30,8 @@ void main()
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
     ivec2 at = representative(p, reduction, image_size);
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, vec2(at) + 0.5, texelFetch(depth, at, 0).r,
-                                  texelFetch(gaussian_density, at, 0).rg);
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, vec2(at) + 0.5, texelFetch(depth, at, 0).r,
+                                  texelFetch(gaussian_density, at, 0).r);
     Collected c = collected(brume_medium, calibrated, table, radiance_stack, coverage_stack,
                             Pyramid(brume_grid, calibrated.top), (vec2(at) + 0.5) / float(reduction), pixel.density);
     imageStore(radiance, p, vec4(c.radiance, pixel.distance));

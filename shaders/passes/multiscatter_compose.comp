@@ -3,13 +3,18 @@
 #include "ray.glsl"
 #include "data.glsl"
 #include "density.glsl"
+#include "moment.glsl"
 #include "radiance.glsl"
 #include "spread.glsl"
 #include "pyramid.glsl"
 #include "fetch.glsl"
+#include "pixel.glsl"
 #include "multiscatter.glsl"
+#include "beside_lights.glsl"
+#include "corners.glsl"
 #include "upsample.glsl"
 #include "calibrated.glsl"
+#include "calibrated_levels.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
@@ -47,12 +52,17 @@ void main()
         return;
     vec2 centre = vec2(p) + 0.5;
     vec4 source = texelFetch(color, p, 0);
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, centre, texelFetch(depth, p, 0).r,
-                                  texelFetch(gaussian_density, p, 0).rg);
+    float raw_depth = texelFetch(depth, p, 0).r;
+    vec2 gaussians = texelFetch(gaussian_density, p, 0).rg;
+#if PYRAMID == 2
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, centre, raw_depth, gaussians.x);
+#else
+    Pixel pixel = placed_pixel(brume_medium, brume_camera, multiscatter, centre, raw_depth, gaussians);
+#endif
     vec3 added = pixel.emitted;
 #if PYRAMID == 2
-    vec3 shown = shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, texelFetch(depth, p, 0).r,
-                             pixel.density);
+    vec3 shown =
+        shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, raw_depth, pixel.density);
     Pyramid pyramid = Pyramid(reduced_size(brume_grid, REDUCTION), calibrated.top);
     vec2 position = centre / float(REDUCTION);
 #if REDUCTION > 1

@@ -3,10 +3,12 @@
 #include "ray.glsl"
 #include "data.glsl"
 #include "density.glsl"
+#include "moment.glsl"
 #include "radiance.glsl"
 #include "spread.glsl"
 #include "pyramid.glsl"
 #include "fetch.glsl"
+#include "pixel.glsl"
 #include "multiscatter.glsl"
 
 uniform Medium brume_medium;

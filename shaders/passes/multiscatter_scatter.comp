@@ -2,11 +2,14 @@
 #include "ray.glsl"
 #include "data.glsl"
 #include "density.glsl"
+#include "moment.glsl"
 #include "radiance.glsl"
 #include "spread.glsl"
 #include "pyramid.glsl"
 #include "fetch.glsl"
+#include "pixel.glsl"
 #include "multiscatter.glsl"
+#include "beside_lights.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
@@ -23,8 +26,8 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, vec2(p) + 0.5, texelFetch(depth, p, 0).r,
-                                  texelFetch(gaussian_density, p, 0).rg);
+    Pixel pixel = placed_pixel(brume_medium, brume_camera, multiscatter, vec2(p) + 0.5, texelFetch(depth, p, 0).r,
+                               texelFetch(gaussian_density, p, 0).rg);
     pixel.share = share_beside_lights(lights, multiscatter.lights, brume_medium, brume_camera, vec2(p) + 0.5,
                                       texelFetch(depth, p, 0).r, pixel);
     Sources s = scattered_sources(brume_medium, multiscatter, pixel, texelFetch(color, p, 0).rgb);

@@ -6,9 +6,11 @@
 #include "spread.glsl"
 #include "pyramid.glsl"
 #include "fetch.glsl"
-#include "multiscatter.glsl"
+#include "pixel.glsl"
+#include "corners.glsl"
 #include "upsample.glsl"
 #include "calibrated.glsl"
+#include "calibrated_levels.glsl"
 
 uniform Medium brume_medium;
 uniform Calibrated calibrated;

@@ -6,13 +6,15 @@
 #include "spread.glsl"
 #include "pyramid.glsl"
 #include "fetch.glsl"
-#include "multiscatter.glsl"
+#include "pixel.glsl"
+#include "beside_lights.glsl"
+#include "corners.glsl"
 #include "upsample.glsl"
 #include "calibrated.glsl"
+#include "calibrated_levels.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
-uniform Filter multiscatter;
 uniform Calibrated calibrated;
 uniform int reduction;
 uniform ivec2 image_size;
@@ -32,8 +34,8 @@ void main()
     ivec2 at = representative(p, reduction, image_size);
     vec2 centre = vec2(at) + 0.5;
     float raw_depth = texelFetch(depth, at, 0).r;
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, multiscatter, centre, raw_depth,
-                                  texelFetch(gaussian_density, at, 0).rg);
+    Pixel pixel =
+        pixel_in_medium(brume_medium, brume_camera, centre, raw_depth, texelFetch(gaussian_density, at, 0).r);
     Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share,
                                    mean_of_square(color, p, reduction, image_size),
                                    shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, raw_depth,

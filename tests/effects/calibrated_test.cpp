@@ -256,3 +256,16 @@ TEST(GpuAgainstCpu, KernelCalibrated)
             }
     printf("kernel calibrated, GL against CPU: worst %.2g\n", worst);
 }
+
+// Rows that end anywhere in a group of pixels side by side.
+TEST(GpuAgainstCpu, KernelCalibratedInEveryWidth)
+{
+    for (int w = 1; w <= 34; ++w)
+        for (const char *quality : {"", ",\"resolution\":\"half\""}) {
+            const Picture color = random_lights(w, 5, 2), depth = random_depth(w, 5, 5);
+            const std::string text = scene(clear_media[0], kernel + quality);
+            const Worst found = compare(run(backend("gl"), text, color, depth).output, run(cpu(), text, color, depth).output,
+                                        0.05);
+            EXPECT_LT(found.error, 1e-4) << w << " " << quality << " " << found.describe();
+        }
+}
