@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double most_seconds = 8;  // after which nothing more is begun
+constexpr double most_seconds = 10;  // after which nothing more is begun
 constexpr int rounds = 2;
 
 // One of each kind of medium and light that passes cost differently for.
@@ -31,7 +31,8 @@ constexpr const char *scenes[] = {
           {"type":"gaussian","center":[0,0,-10],"scale":0.3,"amplitude":2},{"type":"gaussian","center":[5,1,-15],"scale":0.2,"amplitude":2},
           {"type":"gaussian","center":[-6,0,-18],"scale":0.25,"amplitude":2},{"type":"gaussian","center":[2,-2,-8],"scale":0.5,"amplitude":2}]},
         "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}]})"};
-constexpr std::pair<int, int> sizes[] = {{192, 108}, {384, 216}};
+// The second so much larger that what a pass takes at its start and what it takes an operation can be told apart.
+constexpr std::pair<int, int> sizes[] = {{96, 54}, {320, 180}};
 
 // A floor that recedes under a sky, boxes on it, and lamps.
 struct TestFrame {
@@ -66,11 +67,17 @@ struct TestFrame {
     TestFrame(const TestFrame &) = delete;
 };
 
-using Samples = std::map<std::pair<std::string, std::string>, std::vector<double>>;  // effect and pass: ms per operation
+struct Sample {
+    double operations, ms;
+};
 
-void measure(const std::shared_ptr<Context> &context, const Scene &scene, const brume_format &format, TestFrame &test,
-             Samples &samples)
+using Samples = std::map<std::pair<std::string, std::string>, std::vector<Sample>>;  // by effect and pass
+
+void measure(const std::shared_ptr<Context> &context, const Scene &scene, TestFrame &test, Samples &samples)
 {
+    brume_format format = BRUME_FORMAT_INIT;
+    format.width = test.images[0].width;
+    format.height = test.images[0].height;
     brume_host_t plan(context, scene, format);
     std::vector<double> least(plan.entries().size(), INFINITY);
     for (int round = 0; round < rounds; ++round) {
@@ -82,8 +89,65 @@ void measure(const std::shared_ptr<Context> &context, const Scene &scene, const 
     for (size_t i = 0; i < least.size(); ++i) {
         const PlanEntry &entry = plan.entries()[i];
         if (entry.runs && entry.operations > 0 && least[i] > 0 && std::isfinite(least[i]))
-            samples[{entry.effect, entry.name}].push_back(least[i] / double(entry.operations));
+            samples[{entry.effect, entry.name}].push_back({double(entry.operations), least[i]});
     }
+}
+
+// Each offer of each scene's effects alone, so that what other effects take is not measured again for each; cheap ones
+// first.
+std::vector<Scene> cases(const std::shared_ptr<Context> &context)
+{
+    std::vector<std::pair<size_t, Scene>> all;
+    brume_format format = BRUME_FORMAT_INIT;
+    format.width = sizes[0].first;
+    format.height = sizes[0].second;
+    for (const char *text : scenes) {
+        const Scene scene = parse_scene(text, "calibration", context->effects);
+        const brume_host_t open(context, scene, format, Purpose::rehearsal);
+        for (const PlannedEffect &planned : open.effects())
+            for (size_t offer = 0; offer < planned.offers.size(); ++offer) {
+                if (planned.offers[offer].error == 0)
+                    continue;
+                Scene alone = scene;
+                alone.effects = {{planned.effect->name, {}}};
+                alone.effects_named = true;
+                for (size_t i = 0; i < planned.effect->parameters.size(); ++i)
+                    alone.effects[0].parameters[planned.effect->parameters[i].name] = planned.offers[offer].parameters[i];
+                all.emplace_back(offer, std::move(alone));
+            }
+    }
+    std::stable_sort(all.begin(), all.end(), [](auto &a, auto &b) { return a.first < b.first; });
+    std::vector<Scene> sorted;
+    for (auto &[offer, scene] : all)
+        sorted.push_back(std::move(scene));
+    return sorted;
+}
+
+// The line through two samples, or through one without a start, that all of them are nearest to as ratios.
+Rate fit(const std::vector<Sample> &samples)
+{
+    Rate best;
+    double least = INFINITY;
+    auto consider = [&](Rate rate) {
+        if (rate.start_ms < 0 || rate.ms_per_operation < 0)
+            return;
+        double miss = 0;
+        for (const Sample &s : samples)
+            miss += std::abs(std::log((rate.start_ms + s.operations * rate.ms_per_operation) / s.ms));
+        if (miss < least) {
+            least = miss;
+            best = rate;
+        }
+    };
+    for (const Sample &a : samples) {
+        consider({0, a.ms / a.operations});
+        for (const Sample &b : samples)
+            if (a.operations < b.operations) {
+                const double slope = (b.ms - a.ms) / (b.operations - a.operations);
+                consider({a.ms - slope * a.operations, slope});
+            }
+    }
+    return best;
 }
 
 }  // namespace
@@ -91,35 +155,17 @@ void measure(const std::shared_ptr<Context> &context, const Scene &scene, const 
 void calibrate(const std::shared_ptr<Context> &context)
 {
     const auto start = Clock::now();
-    auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     Samples samples;
+    const std::vector<Scene> all = cases(context);
     for (auto [width, height] : sizes) {
         TestFrame test(width, height);
-        brume_format format = BRUME_FORMAT_INIT;
-        format.width = width;
-        format.height = height;
-        for (const char *text : scenes) {
-            const Scene scene = parse_scene(text, "calibration", context->effects);
-            const brume_host_t open(context, scene, format, Purpose::rehearsal);
-            for (const PlannedEffect &planned : open.effects())
-                for (const Offer &offer : planned.offers) {
-                    if (offer.error == 0 || spent() > most_seconds)
-                        continue;
-                    // Alone, so that what the others take is not measured again for each of its offers.
-                    Scene alone = scene;
-                    alone.effects = {{planned.effect->name, {}}};
-                    alone.effects_named = true;
-                    for (size_t i = 0; i < planned.effect->parameters.size(); ++i)
-                        alone.effects[0].parameters[planned.effect->parameters[i].name] = offer.parameters[i];
-                    measure(context, alone, format, test, samples);
-                }
-        }
+        for (const Scene &scene : all)
+            if (std::chrono::duration<double>(Clock::now() - start).count() < most_seconds)
+                measure(context, scene, test, samples);
     }
     Rates rates;
-    for (auto &[pass, values] : samples) {
-        std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
-        rates.set(pass.first, pass.second, values[values.size() / 2]);
-    }
+    for (const auto &[pass, measured] : samples)
+        rates.set(pass.first, pass.second, fit(measured));
     context->rates = rates;
 }
 

@@ -29,7 +29,7 @@ Nominal nominal(const Backend &backend)
 
 Json identity(const Backend &backend)
 {
-    return {{"brume_calibration", 1},
+    return {{"brume_calibration", 2},
             {"library", fmt::format("{}.{}.{}", BRUME_VERSION_MAJOR, BRUME_VERSION_MINOR, BRUME_VERSION_PATCH)},
             {"device", backend.device()},
             {"threads", backend.threads()}};
@@ -40,8 +40,8 @@ Json identity(const Backend &backend)
 double Rates::milliseconds(const Backend &backend, const std::string &effect, const std::string &pass, uint64_t operations,
                            uint64_t bytes) const
 {
-    if (const auto at = factors_.find(effect + "/" + pass); at != factors_.end())
-        return double(operations) * at->second;
+    if (const auto at = rates_.find(effect + "/" + pass); at != rates_.end())
+        return at->second.start_ms + double(operations) * at->second.ms_per_operation;
     const Nominal rates = nominal(backend);
     return std::max(double(bytes) / rates.bytes_per_ms, double(operations) / rates.operations_per_ms);
 }
@@ -51,7 +51,8 @@ std::string Rates::write(const Backend &backend) const
     if (!measured())
         return "";
     Json text = identity(backend);
-    text["ms_per_operation"] = factors_;
+    for (const auto &[pass, rate] : rates_)
+        text["passes"][pass] = {{"start_ms", rate.start_ms}, {"ms_per_operation", rate.ms_per_operation}};
     return text.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -68,17 +69,21 @@ void Rates::read(const Backend &backend, const std::string &text)
                                     given.contains(key) ? given[key].dump(-1, ' ', false, Json::error_handler_t::replace)
                                                         : "missing",
                                     value.dump(-1, ' ', false, Json::error_handler_t::replace)));
-    const Json &rates = given.contains("ms_per_operation") ? given["ms_per_operation"] : Json();
-    if (!rates.is_object() || rates.empty())
-        throw Error(BRUME_ERROR_ARGUMENT, "calibration.ms_per_operation: expected an object with a number for each pass");
-    std::map<std::string, double> factors;
-    for (const auto &[pass, rate] : rates.items()) {
-        if (!rate.is_number() || !(rate.get<double>() > 0) || !std::isfinite(rate.get<double>()))
-            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("calibration.ms_per_operation.{}: {}; expected a positive number",
-                                                          pass, rate.dump(-1, ' ', false, Json::error_handler_t::replace)));
-        factors[pass] = rate;
-    }
-    factors_ = std::move(factors);
+    const Json &passes = given.contains("passes") ? given["passes"] : Json();
+    if (!passes.is_object() || passes.empty())
+        throw Error(BRUME_ERROR_ARGUMENT, "calibration.passes: expected an object with the times of each pass");
+    auto number = [](const std::string &pass, const Json &times, const char *key) {
+        const Json value = times.is_object() && times.contains(key) ? times[key] : Json();
+        if (!value.is_number() || !(value.get<double>() >= 0) || !std::isfinite(value.get<double>()))
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        fmt::format("calibration.passes.{}.{}: {}; expected a number of at least 0", pass, key,
+                                    value.dump(-1, ' ', false, Json::error_handler_t::replace)));
+        return value.get<double>();
+    };
+    std::map<std::string, Rate> rates;
+    for (const auto &[pass, times] : passes.items())
+        rates[pass] = {number(pass, times, "start_ms"), number(pass, times, "ms_per_operation")};
+    rates_ = std::move(rates);
 }
 
 }  // namespace brume

@@ -7,14 +7,19 @@ namespace brume {
 
 class Backend;
 
+// What a pass takes a frame: a start, which small images do not hide, and what grows with its operations.
+struct Rate {
+    double start_ms = 0;
+    double ms_per_operation = 0;
+};
+
 // What passes take on one device: nominal rates, or those that a calibration measured.
 class Rates {
 public:
-    bool measured() const { return !factors_.empty(); }
+    bool measured() const { return !rates_.empty(); }
     double milliseconds(const Backend &backend, const std::string &effect, const std::string &pass, uint64_t operations,
                         uint64_t bytes) const;
-    // Milliseconds per operation of a pass.
-    void set(const std::string &effect, const std::string &pass, double rate) { factors_[effect + "/" + pass] = rate; }
+    void set(const std::string &effect, const std::string &pass, Rate rate) { rates_[effect + "/" + pass] = rate; }
 
     // JSON that names the device; "" before a calibration. read() throws Error(BRUME_ERROR_ARGUMENT) where the text is not
     // of this version and device, and changes nothing then.
@@ -22,7 +27,7 @@ public:
     void read(const Backend &backend, const std::string &text);
 
 private:
-    std::map<std::string, double> factors_;
+    std::map<std::string, Rate> rates_;
 };
 
 }  // namespace brume

@@ -68,36 +68,47 @@ TEST(Calibration, IsTextOfThisDeviceOrRefused)
 {
     Context context = make_context();
     EXPECT_EQ(calibration(context), "");
-    const std::string good = R"({"brume_calibration":1,"library":")" + std::to_string(BRUME_VERSION_MAJOR) + "." +
-                             std::to_string(BRUME_VERSION_MINOR) + "." + std::to_string(BRUME_VERSION_PATCH) +
-                             R"(","device":"CPU","threads":2,"ms_per_operation":{"multiscatter/compose":1}})";
+    const std::string good =
+        R"({"brume_calibration":2,"library":")" + std::to_string(BRUME_VERSION_MAJOR) + "." +
+        std::to_string(BRUME_VERSION_MINOR) + "." + std::to_string(BRUME_VERSION_PATCH) +
+        R"(","device":"CPU","threads":2,"passes":{"multiscatter/compose":{"start_ms":0,"ms_per_operation":1}}})";
     auto set = [&](const std::string &text) {
         return brume_context_set_calibration(context.get(), text.data(), text.size());
     };
     ASSERT_EQ(set(good), BRUME_OK) << message(context.get());
     EXPECT_NE(calibration(context).find("multiscatter/compose"), std::string::npos);
 
-    // A millisecond an operation: the plan says so.
-    Scene scene = make_scene(context, foggy);
-    Plan plan = make_plan(context, scene, ray_format(64, 48));
-    brume_plan_info info = BRUME_PLAN_INFO_INIT;
-    ASSERT_EQ(brume_plan_get_info(plan.get(), &info), BRUME_OK);
-    EXPECT_GT(info.predicted_ms, 64 * 48);
-
-    auto refused = [&](const std::string &text, const std::string &named) {
-        expect_status(context.get(), set(text), BRUME_ERROR_ARGUMENT, named);
-    };
     auto with = [&](const std::string &from, const std::string &to) {
         std::string text = good;
         return text.replace(text.find(from), from.size(), to);
+    };
+    // A millisecond an operation: the plan says so, and what each frame takes besides.
+    auto predicted = [&] {
+        Scene scene = make_scene(context, foggy);
+        Plan plan = make_plan(context, scene, ray_format(64, 48));
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        EXPECT_EQ(brume_plan_get_info(plan.get(), &info), BRUME_OK);
+        return info.predicted_ms;
+    };
+    const double without_start = predicted();
+    EXPECT_GT(without_start, 64 * 48);
+    ASSERT_EQ(set(with("\"start_ms\":0", "\"start_ms\":1e6")), BRUME_OK) << message(context.get());
+    EXPECT_NEAR(predicted(), without_start + 1e6, 1);
+    ASSERT_EQ(set(good), BRUME_OK);
+
+    auto refused = [&](const std::string &text, const std::string &named) {
+        expect_status(context.get(), set(text), BRUME_ERROR_ARGUMENT, named);
     };
     refused("", "not a JSON object");
     refused("[1]", "not a JSON object");
     refused(with("\"CPU\"", "\"GPU\""), "calibration.device: \"GPU\"; expected \"CPU\"");
     refused(with("\"threads\":2", "\"threads\":3"), "calibration.threads: 3; expected 2");
-    refused(with("{\"multiscatter/compose\":1}", "{}"), "ms_per_operation");
-    refused(with(":1}}", ":-1}}"), "multiscatter/compose: -1");
-    refused(with(":1}}", ":\"fast\"}}"), "multiscatter/compose: \"fast\"");
+    refused(with("\"brume_calibration\":2", "\"brume_calibration\":1"), "calibration.brume_calibration: 1; expected 2");
+    refused(with("{\"multiscatter/compose\":{\"start_ms\":0,\"ms_per_operation\":1}}", "{}"), "calibration.passes");
+    refused(with("{\"start_ms\":0,\"ms_per_operation\":1}", "1"), "multiscatter/compose.start_ms: null");
+    refused(with("\"start_ms\":0", "\"start_ms\":-1"), "multiscatter/compose.start_ms: -1");
+    refused(with(":1}}", ":-1}}"), "multiscatter/compose.ms_per_operation: -1");
+    refused(with(":1}}", ":\"fast\"}}"), "multiscatter/compose.ms_per_operation: \"fast\"");
     EXPECT_NE(calibration(context).find("multiscatter/compose"), std::string::npos) << "what was refused changed nothing";
     EXPECT_EQ(brume_context_set_calibration(context.get(), nullptr, 0), BRUME_ERROR_ARGUMENT);
     EXPECT_EQ(brume_context_calibrate(nullptr), BRUME_ERROR_ARGUMENT);

@@ -98,9 +98,16 @@ TEST(Quality, CalibrationIsQuickAndPredictsWithinAFactor)
         Context::check(brume_context_calibrate(context), context);
         const double threads = std::max(1u, std::thread::hardware_concurrency());
         const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC / threads;
-        const double miss = median_miss(cost_study(context, 5, 12, 160));
-        printf("%s: calibrated in %.1f s; median miss of predicted costs %.0f %%\n", name, seconds, 100 * miss);
+        printf("%s: calibrated in %.1f s\n", name, seconds);
         EXPECT_LT(seconds, 20) << name;
-        EXPECT_LT(miss, 2) << name;
+        // On GL passes take time to start, which small images must not make large ones look slow with.
+        std::vector<std::pair<int, int>> studies{{160, 12}};
+        if (std::string(name) == "gl")
+            studies.push_back({480, 6});
+        for (auto [largest, count] : studies) {
+            const double miss = median_miss(cost_study(context, 5, count, largest));
+            printf("%s, images up to %d: median miss of predicted costs %.0f %%\n", name, largest, 100 * miss);
+            EXPECT_LT(miss, 1) << name << " " << largest;
+        }
     }
 }
