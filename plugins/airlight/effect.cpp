@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "encounters.h"
 #include "passes.h"
 #include "state.h"
 
@@ -41,6 +42,7 @@ private:
 
     brume_status check_tier();
     brume_status need_camera();
+    double gather_operations() const;
     brume_status plan_gather();
 
     const brume_services &services_;
@@ -81,6 +83,26 @@ brume_status Planner::need_camera()
     return BRUME_OK;
 }
 
+// Of one evaluation, as brume_plugin_entry counts them; measured for tier `nodes`.
+double Planner::gather_operations() const
+{
+    const Parameters &p = state_->parameters;
+    const double lights = scene_.light_count;
+    const Encounters met = encounters(scene_, state_->width, state_->height);
+    if (p.tier == Tier::fogshop || p.tier == Tier::sun)
+        return 100 + 150 * lights + met.of_sight * (100 + 150 * lights);
+    const int finer = p.max_error > 0.05 ? 0 : p.max_error >= 0.005 ? 1 : 2;
+    constexpr double of_terms[] = {1, 1.2, 1.5}, of_gaussians[] = {1, 2.3, 5};
+    // Mesa's software GL vectorises cells well and panels badly.
+    const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 700,
+                 of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 1900;
+    double operations = 100 + of_terms[finer] * lights * (of_light + of_term * scene_.medium.term_count);
+    if (scene_.gaussian_count > 0)
+        operations +=
+            of_gaussians[finer] * (2000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light);
+    return operations;
+}
+
 brume_status Planner::plan_gather()
 {
     State &state = *state_;
@@ -104,13 +126,12 @@ brume_status Planner::plan_gather()
                                    0, 0))
             return s;
     const double pixels = double(width) * height;
-    // Per light: about 60 operations a node for each of the analytic terms.
-    const double operations = scene_.light_count * 12.0 * (60 + 40 * scene_.medium.term_count + 800 * scene_.gaussian_count);
-    return entry(true, "gather",
-                 std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
-                     (scene_.environment_count ? " and the environment" : "") + " scattered once" +
-                     (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
-                 pixels * (4 + 16), pixels * (100 + operations));
+    return entry(
+        true, "gather",
+        std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
+            (scene_.environment_count ? " and the environment" : "") + " scattered once" +
+            (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
+        pixels * (4 + 16), pixels * gather_operations());
 }
 
 brume_status Planner::plan(std::unique_ptr<State> &out)
@@ -137,9 +158,10 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     }
     const double pixels = double(state_->width) * state_->height;
-    if (brume_status s = entry(true, "compose",
-                               state_->attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
-                               pixels * (16 + 4 + 16 + (state_->lit ? 16 : 0)), pixels * 150))
+    if (brume_status s =
+            entry(true, "compose", state_->attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
+                  pixels * (16 + 4 + 16 + (state_->lit ? 16 : 0)),
+                  pixels * ((state_->parameters.reduction > 1 ? 100 : 60) + (state_->attenuates ? 40 : 0))))
         return s;
     if (request_.backend == BRUME_BACKEND_GL)
         if (brume_status s = compile_programs(services_, host_, request_.outputs, *state_))

@@ -14,8 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double most_seconds = 10;  // after which nothing more is begun
-constexpr int rounds = 2;
+constexpr std::chrono::seconds most_time(10);  // after which nothing more is begun
+constexpr int rounds = 3;
 
 // One of each kind of medium and light that passes cost differently for.
 constexpr const char *scenes[] = {
@@ -73,14 +73,15 @@ struct Sample {
 
 using Samples = std::map<std::pair<std::string, std::string>, std::vector<Sample>>;  // by effect and pass
 
-void measure(const std::shared_ptr<Context> &context, const Scene &scene, TestFrame &test, Samples &samples)
+void measure(const std::shared_ptr<Context> &context, const Scene &scene, TestFrame &test, Clock::time_point end,
+             Samples &samples)
 {
     brume_format format = BRUME_FORMAT_INIT;
     format.width = test.images[0].width;
     format.height = test.images[0].height;
     brume_host_t plan(context, scene, format);
     std::vector<double> least(plan.entries().size(), INFINITY);
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < rounds && (round == 0 || Clock::now() < end); ++round) {
         plan.execute(test.frame);
         const std::vector<double> ms = plan.measured_ms();
         for (size_t i = 0; i < ms.size(); ++i)
@@ -154,14 +155,14 @@ Rate fit(const std::vector<Sample> &samples)
 
 void calibrate(const std::shared_ptr<Context> &context)
 {
-    const auto start = Clock::now();
+    const auto end = Clock::now() + most_time;
     Samples samples;
     const std::vector<Scene> all = cases(context);
     for (auto [width, height] : sizes) {
         TestFrame test(width, height);
         for (const Scene &scene : all)
-            if (std::chrono::duration<double>(Clock::now() - start).count() < most_seconds)
-                measure(context, scene, test, samples);
+            if (Clock::now() < end)
+                measure(context, scene, test, end, samples);
     }
     Rates rates;
     for (const auto &[pass, measured] : samples)

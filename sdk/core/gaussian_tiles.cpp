@@ -80,6 +80,25 @@ std::vector<Cone> tile_cones(const brume_plugin_camera &camera, int32_t columns,
 
 }  // namespace
 
+TileEstimate estimate_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height)
+{
+    const brume_plugin_camera &camera = scene.camera;
+    const maths_double::Medium medium = maths_double::medium_of(scene);
+    const int32_t columns = (width + BRUME_TILE_SIZE - 1) / BRUME_TILE_SIZE,
+                  rows = (height + BRUME_TILE_SIZE - 1) / BRUME_TILE_SIZE;
+    TileEstimate estimate;
+    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
+        const brume_plugin_gaussian &g = scene.gaussians[i];
+        const double reach = gaussian_reach(medium, maths_double::gaussian_of(g));
+        const Span x = covered(g.center[0], -g.center[2], reach, camera.tangent_scale[0], camera.center[0], columns, width);
+        const Span y = covered(g.center[1], -g.center[2], reach, camera.tangent_scale[1], camera.center[1], rows, height);
+        const double tiles = double(x.end - x.first) * (y.end - y.first);
+        estimate.seen += tiles > 0;
+        estimate.length += tiles / (double(columns) * rows);
+    }
+    return estimate;
+}
+
 void build_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height, GaussianTiles &out)
 {
     const brume_plugin_camera &camera = scene.camera;

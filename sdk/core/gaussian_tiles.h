@@ -15,6 +15,13 @@ struct GaussianTiles {
     uint64_t seen = 0;           // Gaussians that are in some tile
 };
 
+// What the lists will come to, without building them.
+struct TileEstimate {
+    uint64_t seen = 0;  // Gaussians that are in some tile; a few beside the image's corners are counted as if they were
+    double length = 0;  // of a tile's list, in the mean
+};
+TileEstimate estimate_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height);
+
 // Throws Error(BRUME_ERROR_UNSUPPORTED) if the lists grow beyond what a float can count.
 void build_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height, GaussianTiles &out);
 

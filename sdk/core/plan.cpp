@@ -175,8 +175,8 @@ void brume_host_t::plan_effects()
                 context_->rates.milliseconds(*context_->backend, entry.effect, entry.name, entry.operations, entry.bytes);
 }
 
-// Lights, environment and Gaussians as effects see them when planning: of Gaussians only whether there are any, since
-// their number may change with the frame.
+// Lights, environment and Gaussians as effects see them when planning. Of Gaussians only that there are some where files
+// bring them with the frame, or frames the camera.
 void brume_host_t::plan_content(const View &view, brume_plugin_scene &scene)
 {
     if (!scene_.environment.file.empty() && scene_.environment.coefficients.empty())
@@ -192,10 +192,18 @@ void brume_host_t::plan_content(const View &view, brume_plugin_scene &scene)
     scene.environment_count = uint32_t(environment_.size());
     const bool any_gaussians = has_gaussians(scene_);
     scene.gaussian_count = any_gaussians ? 1 : 0;
+    const uint32_t placed = BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE;
+    if (any_gaussians && (view.given & placed) == placed && !reads_gaussians_by_frame(scene_)) {
+        evaluate_gaussians(scene_, 0, view.camera_to_world, gaussians_);
+        if (!gaussians_.empty()) {
+            scene.gaussians = gaussians_.data();
+            scene.gaussian_count = uint32_t(gaussians_.size());
+        }
+    }
     if (effects_.empty())
         return;
     if (any_gaussians)
-        need_camera(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE, "the medium's Gaussians are placed in the world");
+        need_camera(placed, "the medium's Gaussians are placed in the world");
     scene_images_.plan(*this, scene, format_, context_->backend->kind());
 }
 

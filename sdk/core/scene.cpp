@@ -182,6 +182,12 @@ bool has_gaussians(const Scene &scene)
            std::any_of(medium.gaussian_sets.begin(), medium.gaussian_sets.end(), holds_dense);
 }
 
+bool reads_gaussians_by_frame(const Scene &scene)
+{
+    const auto by_frame = [](const GaussianSet &set) { return set.frames != nullptr; };
+    return scene.medium && std::any_of(scene.medium->gaussian_sets.begin(), scene.medium->gaussian_sets.end(), by_frame);
+}
+
 bool pose_matters(const Scene &scene)
 {
     if (!scene.medium)

@@ -140,6 +140,9 @@ bool pose_matters(const Scene &scene);
 // Whether some Gaussian has density in some frame. Files that are read at each frame count as if they had.
 bool has_gaussians(const Scene &scene);
 
+// Whether some are known only with the frame.
+bool reads_gaussians_by_frame(const Scene &scene);
+
 // The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
 Scene with_peak_medium(Scene scene);
 

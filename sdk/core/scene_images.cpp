@@ -4,6 +4,8 @@
 #include <cstring>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/plan.h"
 #include "core/services.h"
@@ -29,9 +31,20 @@ void SceneImages::plan(brume_host_t &host, const brume_plugin_scene &scene, cons
     if (scene.gaussian_count == 0)
         return;
     density_ = host.create_image(width_, height_, 2);
-    const uint64_t pixels = uint64_t(width_) * uint64_t(height_);
+    double length = 1;
+    if (scene.gaussians) {
+        const TileEstimate estimate = estimate_tiles(scene, width_, height_);
+        length = estimate.length;
+        if (estimate.seen < scene.gaussian_count) {
+            const std::string reason = fmt::format(
+                "{} of {} Gaussians outside the frustum of the planned view: its rays skip them, those of lights do not",
+                scene.gaussian_count - estimate.seen, scene.gaussian_count);
+            host.add_entry({sizeof(brume_plugin_entry), 0, pass_name, reason.c_str(), 0, 0});
+        }
+    }
+    const double pixels = double(width_) * height_;
     host.add_entry({sizeof(brume_plugin_entry), 1, pass_name, "density of the Gaussians along each pixel's ray",
-                    pixels * (4 + 8), pixels * 400});
+                    uint64_t(pixels * (4 + 8)), uint64_t(pixels * (10 + 40 * length))});
     if (backend == BRUME_BACKEND_GL)
         program_ = host.compile(pass_name, std::string(shader_text("gaussian_density.comp")).c_str(), "");
 }

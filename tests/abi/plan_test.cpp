@@ -64,6 +64,30 @@ TEST_P(Plans, EntriesHaveReasons)
     expect_status(context.get(), brume_plan_get_entry(plan.get(), i.entry_count, &past), BRUME_ERROR_ARGUMENT, "index");
 }
 
+TEST_P(Plans, SayWhichGaussiansTheViewDoesNotMeet)
+{
+    const auto said = [&](const std::string &camera, const std::string &centers) {
+        std::string text =
+            R"({"brume": 1, "camera": {"vertical_fov": 50)" + camera + R"(}, "medium": {"scattering": 0.1, "density": [)";
+        for (size_t from = 0; from < centers.size(); from += 8)
+            text += (from ? "," : "") +
+                    (R"({"type": "gaussian", "scale": 2, "amplitude": 1, "center": )" + centers.substr(from, 8) + "}");
+        Scene scene = make_scene(context, (text + "]}}").c_str());
+        Plan plan = make_plan(context, scene, ray_format(64, 48));
+        std::string reason;
+        for (uint32_t k = 0; k < info(plan).entry_count; ++k)
+            if (brume_plan_entry e = entry(plan, k); !e.runs && std::string(e.name) == "gaussians")
+                reason += e.reason;
+        return reason.substr(0, reason.find(" outside"));
+    };
+    const std::string here = R"(, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])",
+                      turned = R"(, "camera_to_world": [[-1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]])";
+    EXPECT_EQ(said(here, "[0,0,-9][1,0,-9]"), "");
+    EXPECT_EQ(said(here, "[0,0,-9][1,0,-9][0,0, 9][9,0,-5]"), "2 of 4 Gaussians");
+    EXPECT_EQ(said(turned, "[0,0,-9][1,0,-9][0,0, 9][9,0,-5]"), "3 of 4 Gaussians");
+    EXPECT_EQ(said("", "[0,0,-9][0,0, 9]"), "") << "frames bring the pose";
+}
+
 TEST_P(Plans, DropWhatTheSceneDoesNotNeed)
 {
     const auto names = [&](const char *text, bool runs) {

@@ -82,7 +82,25 @@ struct Cost {
     double predicted = 0, measured = 0;  // [ms]
 };
 
-// Of frames that are executed three times, the least; for presets in turn.
+// Of frames that are executed three times, the least.
+inline Cost cost_of(const Plan &plan, const Frame &frame)
+{
+    const brume_plan_info info = info_of(plan);
+    Cost cost{info.predicted_ms, INFINITY};
+    for (int round = 0; round < 3; ++round) {
+        plan.execute(frame.color, frame.depth);
+        double ms = 0;
+        for (uint32_t e = 0; e < info.entry_count; ++e) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            brume_plan_get_entry(plan, e, &entry);
+            ms += entry.runs ? entry.measured_ms : 0;
+        }
+        cost.measured = std::min(cost.measured, ms);
+    }
+    return cost;
+}
+
+// For presets in turn.
 inline std::vector<Cost> cost_study(brume_context context, unsigned seed, int count, int largest)
 {
     static const char *const presets[] = {"draft", "standard", "final"};
@@ -92,22 +110,20 @@ inline std::vector<Cost> cost_study(brume_context context, unsigned seed, int co
         const RandomScene random = scenes.next(i % 2 == 0);
         Json scene = random.scene;
         scene["quality"] = presets[i % 3];
-        const Plan plan(context, scene.dump(), random.frame.color.width, random.frame.color.height);
-        const brume_plan_info info = info_of(plan);
-        Cost cost{info.predicted_ms, INFINITY};
-        for (int round = 0; round < 3; ++round) {
-            plan.execute(random.frame.color, random.frame.depth);
-            double ms = 0;
-            for (uint32_t e = 0; e < info.entry_count; ++e) {
-                brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
-                brume_plan_get_entry(plan, e, &entry);
-                ms += entry.runs ? entry.measured_ms : 0;
-            }
-            cost.measured = std::min(cost.measured, ms);
-        }
-        all.push_back(cost);
+        all.push_back(
+            cost_of(Plan(context, scene.dump(), random.frame.color.width, random.frame.color.height), random.frame));
     }
     return all;
+}
+
+// Of a bank of `count` Gaussians that fills the view, lit by one lamp.
+inline Cost cost_of_bank(brume_context context, int count)
+{
+    const Frame frame = lit_frame(64, 48);
+    Json medium{{"scattering", 0.2}};
+    medium["density"] = random_gaussians(count, 3, 12, 3 * std::cbrt(34.0 / count), 1);
+    const Json scene = lit_scene(medium, Json::array({point_light({-3, 2, -8}, 30)}), {{"max_error", 0.1}});
+    return cost_of(Plan(context, scene.dump(), frame.color.width, frame.color.height), frame);
 }
 
 // Median of |predicted / measured - 1|.

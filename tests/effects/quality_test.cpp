@@ -109,5 +109,12 @@ TEST(Quality, CalibrationIsQuickAndPredictsWithinAFactor)
             printf("%s, images up to %d: median miss of predicted costs %.0f %%\n", name, largest, 100 * miss);
             EXPECT_LT(miss, 1) << name << " " << largest;
         }
+        if (std::string(name) == "cpu")
+            for (int count : {34, 353, 3008}) {
+                const Cost cost = cost_of_bank(context, count);
+                printf("%d Gaussians: predicted %.3g ms, measured %.3g ms\n", count, cost.predicted, cost.measured);
+                EXPECT_LT(cost.predicted, 3 * cost.measured) << count;
+                EXPECT_GT(cost.predicted, cost.measured / 3) << count;
+            }
     }
 }
