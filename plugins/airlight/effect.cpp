@@ -161,7 +161,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     if (brume_status s =
             entry(true, "compose", state_->attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
                   pixels * (16 + 4 + 16 + (state_->lit ? 16 : 0)),
-                  pixels * ((state_->parameters.reduction > 1 ? 100 : 60) + (state_->attenuates ? 40 : 0))))
+                  pixels * ((state_->parameters.reduction > 1 ? 100 : 60) + (state_->attenuates ? 20 : 0))))
         return s;
     if (request_.backend == BRUME_BACKEND_GL)
         if (brume_status s = compile_programs(services_, host_, request_.outputs, *state_))

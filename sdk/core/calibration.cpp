@@ -157,13 +157,11 @@ void calibrate(const std::shared_ptr<Context> &context)
 {
     const auto end = Clock::now() + most_time;
     Samples samples;
-    const std::vector<Scene> all = cases(context);
-    for (auto [width, height] : sizes) {
-        TestFrame test(width, height);
-        for (const Scene &scene : all)
+    TestFrame small(sizes[0].first, sizes[0].second), large(sizes[1].first, sizes[1].second);
+    for (const Scene &scene : cases(context))
+        for (TestFrame *test : {&small, &large})
             if (Clock::now() < end)
-                measure(context, scene, test, end, samples);
-    }
+                measure(context, scene, *test, end, samples);
     Rates rates;
     for (const auto &[pass, measured] : samples)
         rates.set(pass.first, pass.second, fit(measured));
