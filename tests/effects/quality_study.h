@@ -119,7 +119,7 @@ inline std::vector<Cost> cost_study(brume_context context, unsigned seed, int co
 // Of a bank of `count` Gaussians that fills the view, lit by one lamp.
 inline Cost cost_of_bank(brume_context context, int count)
 {
-    const Frame frame = lit_frame(64, 48);
+    const Frame frame = lit_frame(128, 96);
     Json medium{{"scattering", 0.2}};
     medium["density"] = random_gaussians(count, 3, 12, 3 * std::cbrt(34.0 / count), 1);
     const Json scene = lit_scene(medium, Json::array({point_light({-3, 2, -8}, 30)}), {{"max_error", 0.1}});

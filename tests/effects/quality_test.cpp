@@ -88,33 +88,52 @@ TEST(Quality, AMediumThatOnlyAbsorbsIsExactAndNoMediumIsACopy)
     EXPECT_EQ(info_of(Plan(cpu(), scene("\"scattering\":1e-6"), 64, 48, thin(200))).does_nothing, 0u);
 }
 
-// How well costs are predicted is quality_bench's to measure on a quiet machine; here, that a calibration helps at all.
+namespace {
+
+// What is wrong with a calibration of this backend and with costs predicted by it.
+std::string faults_of_calibration(bool on_gl)
+{
+    std::string faults;
+    auto expect = [&](bool holds, const std::string &what) {
+        printf("%s%s\n", what.c_str(), holds ? "" : " (too far off)");
+        faults += holds ? "" : what + "\n";
+    };
+    Context context(on_gl ? BRUME_BACKEND_GL : BRUME_BACKEND_CPU);
+    // CPU time, which others on the machine do not lengthen, over the threads that work.
+    const std::clock_t start = std::clock();
+    Context::check(brume_context_calibrate(context), context);
+    const double threads = std::max(1u, std::thread::hardware_concurrency());
+    const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC / threads;
+    expect(seconds < 20, std::string(on_gl ? "gl" : "cpu") + ": calibrated in " + std::to_string(seconds) + " s");
+    auto study = [&](int largest, int count) {
+        const double miss = median_miss(cost_study(context, 5, count, largest));
+        expect(miss < 1, "median miss of costs of images up to " + std::to_string(largest) + ": " + std::to_string(miss));
+    };
+    study(160, 12);
+    if (on_gl) {
+        // Passes take time to start, which small images must not make large ones look slow with.
+        study(480, 6);
+        return faults;
+    }
+    for (int count : {34, 353, 3008}) {
+        const Cost cost = cost_of_bank(context, count);
+        expect(std::max(cost.predicted / cost.measured, cost.measured / cost.predicted) < 3,
+               std::to_string(count) + " Gaussians: predicted " + std::to_string(cost.predicted) + " ms, measured " +
+                   std::to_string(cost.measured));
+    }
+    return faults;
+}
+
+}  // namespace
+
+// How well costs are predicted is quality_bench's to measure on a quiet machine; here, that a calibration helps at all. What
+// others do on the machine meanwhile makes a calibration wrong for what comes after, but hardly three times in a row.
 TEST(Quality, CalibrationIsQuickAndPredictsWithinAFactor)
 {
-    for (const char *name : {"cpu", "gl"}) {
-        Context context(std::string(name) == "cpu" ? BRUME_BACKEND_CPU : BRUME_BACKEND_GL);
-        // CPU time, which others on the machine do not lengthen, over the threads that work.
-        const std::clock_t start = std::clock();
-        Context::check(brume_context_calibrate(context), context);
-        const double threads = std::max(1u, std::thread::hardware_concurrency());
-        const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC / threads;
-        printf("%s: calibrated in %.1f s\n", name, seconds);
-        EXPECT_LT(seconds, 20) << name;
-        // On GL passes take time to start, which small images must not make large ones look slow with.
-        std::vector<std::pair<int, int>> studies{{160, 12}};
-        if (std::string(name) == "gl")
-            studies.push_back({480, 6});
-        for (auto [largest, count] : studies) {
-            const double miss = median_miss(cost_study(context, 5, count, largest));
-            printf("%s, images up to %d: median miss of predicted costs %.0f %%\n", name, largest, 100 * miss);
-            EXPECT_LT(miss, 1) << name << " " << largest;
-        }
-        if (std::string(name) == "cpu")
-            for (int count : {34, 353, 3008}) {
-                const Cost cost = cost_of_bank(context, count);
-                printf("%d Gaussians: predicted %.3g ms, measured %.3g ms\n", count, cost.predicted, cost.measured);
-                EXPECT_LT(cost.predicted, 3 * cost.measured) << count;
-                EXPECT_GT(cost.predicted, cost.measured / 3) << count;
-            }
+    for (bool on_gl : {false, true}) {
+        std::string faults = faults_of_calibration(on_gl);
+        for (int again = 0; again < 2 && !faults.empty(); ++again)
+            faults = faults_of_calibration(on_gl);
+        EXPECT_EQ(faults, "");
     }
 }
