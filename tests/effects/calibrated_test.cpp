@@ -206,6 +206,31 @@ TEST_P(Calibrated, CropsAndFieldsOfView)
     EXPECT_LT(narrow, 0.15);
 }
 
+// The same lamp before the same wall, in images of sizes next to powers of two and far from them.
+TEST_P(Calibrated, AnySizeShowsAsMuchLight)
+{
+    for (double place : {0.5, 0.99}) {
+        double least = 1e30, most = 0;
+        for (auto [w, h] : {std::pair(254, 126), {255, 127}, {256, 128}, {257, 129}, {258, 130}, {320, 160}}) {
+            Picture color(w, h, 4, 0);
+            const double x = place * w, y = 0.5 * h, radius = 0.02 * h;
+            double light = 0;
+            for (int j = 0; j < h; ++j)
+                for (int i = 0; i < w; ++i)
+                    if (std::hypot(i + 0.5 - x, j + 0.5 - y) < radius)
+                        light += color.at(i, j)[0] = 1000;
+            const double share = scattered_sum(run(context(), scene("\"scattering\":0.05,\"g\":0.8", kernel), color,
+                                                   Picture(w, h, 1, 20), {{}, BRUME_OUTPUT_SCATTERED, 0})) /
+                                 light;
+            least = std::min(least, share);
+            most = std::max(most, share);
+        }
+        printf("a lamp at %.2f of the width: its light in the fog differs by a factor of %.3f between sizes\n", place,
+               most / least);
+        EXPECT_LT(most / least, place == 0.5 ? 1.15 : 3.2) << place;
+    }
+}
+
 // Light reaches a near surface's pixel only through the medium in front of it.
 TEST_P(Calibrated, FarLightsDoNotShineThroughNearSurfaces)
 {
