@@ -47,11 +47,12 @@ SpreadSource source_of(const State &state, const brume_plugin_scene &scene)
             state.parameters.step};
 }
 
-LevelRows level_rows(const State &state, int level)
+Level level_at(const State &state, int level)
 {
     const ivec2 base = state.base();
-    return {level_size(base, level), level_size(base, level - 1), level <= 1 ? 0 : level_row(base, level - 1),
-            level_row(base, level)};
+    const float texel = float(state.reduction) * float(1 << level);
+    return {level_size(base, level), vec2(float(state.width), float(state.height)) / texel,
+            level == 0 ? 0 : level_row(base, level)};
 }
 
 Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene, const SpreadSource &tabled)

@@ -26,12 +26,7 @@ SpreadSource source_of(const State &state, const brume_plugin_scene &scene);
 brume::maths_float::Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene,
                                              const SpreadSource &tabled);
 
-// Where a level and the one finer than it lie in their images.
-struct LevelRows {
-    brume::maths_float::ivec2 size, finer_size;
-    int finer_row, row;
-};
-LevelRows level_rows(const State &state, int level);
+brume::maths_float::Level level_at(const State &state, int level);
 
 std::string_view pass_text(std::string_view name);
 

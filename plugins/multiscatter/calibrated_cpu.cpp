@@ -54,12 +54,12 @@ public:
     }
     brume_status share(int level) override
     {
-        return run("downsample", level_rows(state_, level).size.y,
+        return run("downsample", level_at(state_, level).size.y,
                    [&](int first, int last) { rows_.share(frame_, level, first, last); });
     }
     brume_status smooth(int level) override
     {
-        return run("smooth", level_rows(state_, level).size.y,
+        return run("smooth", level_at(state_, level).size.y,
                    [&](int first, int last) { rows_.smooth(frame_, level, first, last); });
     }
     brume_status collect() override

@@ -36,8 +36,7 @@ public:
 
     brume_status share(int level) override
     {
-        const LevelRows r = level_rows(state_, level);
-        const int32_t rows[2] = {r.finer_row, r.row};
+        const Level own = level_at(state_, level), finer = level_at(state_, level - 1);
         return run("downsample", state_.share,
                    {{"finer_radiance", level == 1 ? state_.radiance : state_.radiance_stack, BRUME_ACCESS_FETCH, 0},
                     {"finer_coverage", level == 1 ? state_.coverage : state_.coverage_stack, BRUME_ACCESS_FETCH, 0},
@@ -47,21 +46,27 @@ public:
                     {"coverage", state_.coverage_stack, BRUME_ACCESS_WRITE, 0},
                     {"ambient", state_.ambient_stack, BRUME_ACCESS_WRITE, 0}},
                    {integer("level", level),
-                    {"finer_size", BRUME_UNIFORM_INT, 2, 1, 0, &r.finer_size},
-                    {"rows", BRUME_UNIFORM_INT, 2, 1, 0, rows}},
-                   r.size);
+                    {"finer.size", BRUME_UNIFORM_INT, 2, 1, 0, &finer.size},
+                    {"finer.extent", BRUME_UNIFORM_FLOAT, 2, 1, 0, &finer.extent},
+                    integer("finer.row", finer.row),
+                    integer("row", own.row)},
+                   own.size);
     }
 
     brume_status smooth(int level) override
     {
-        const LevelRows r = level_rows(state_, level);
+        const Level own = level_at(state_, level);
         return run("smooth", state_.smooth,
                    {{"radiance_stack", state_.radiance_stack, BRUME_ACCESS_FETCH, 0},
                     {"coverage_stack", state_.coverage_stack, BRUME_ACCESS_FETCH, 0},
                     {"table", state_.table, BRUME_ACCESS_FETCH, 0},
                     {"radiance", state_.smooth_radiance, BRUME_ACCESS_WRITE, 0},
                     {"coverage", state_.smooth_coverage, BRUME_ACCESS_WRITE, 0}},
-                   {integer("level", level), integer("row", r.row)}, r.size);
+                   {integer("level", level),
+                    {"own.size", BRUME_UNIFORM_INT, 2, 1, 0, &own.size},
+                    {"own.extent", BRUME_UNIFORM_FLOAT, 2, 1, 0, &own.extent},
+                    integer("own.row", own.row)},
+                   own.size);
     }
 
     // Into the pyramid's level 0, which is not needed any more.

@@ -14,9 +14,9 @@ struct Setting {
     double error;  // of a dense isotropic medium and an image of 64 pixels of detail 1
 };
 
-constexpr Setting settings[] = {{Kernel::calibrated, 2, 4, 0.27},
-                                {Kernel::calibrated, 2, 2, 0.225},
-                                {Kernel::calibrated, 2, 1, 0.14},
+constexpr Setting settings[] = {{Kernel::calibrated, 2, 4, 0.25},
+                                {Kernel::calibrated, 2, 2, 0.19},
+                                {Kernel::calibrated, 2, 1, 0.12},
                                 {Kernel::reference, 2, 1, 0}};
 
 // What rounding leaves where nothing is approximated.

@@ -1,8 +1,8 @@
 // Kernel `reference`: kernel `calibrated` without its pyramid.
 //
 // Each pixel's light goes straight to each other pixel, by the Monte Carlo's spread for the angle between them and the
-// optical depth to the source, as far as it is scattered in front of what the receiver shows. What would fall outside the
-// image stays within, in proportion, as the pyramid keeps it by its edges.
+// optical depth to the source, as far as it is scattered in front of what the receiver shows. Of what would fall outside the
+// image half stays within, in proportion: beyond_edges of the pyramid.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -148,7 +148,8 @@ void CalibratedSplatting::tabulate(const ReferenceFrame &frame, const SpreadSour
 // The surroundings, and what of each source's light stays within the image.
 void CalibratedSplatting::prepare(const ReferenceFrame &frame)
 {
-    tabulate(frame, source_of(frame.state, frame.scene));
+    const SpreadSource source = source_of(frame.state, frame.scene);
+    tabulate(frame, source);
     const int width = frame.state.width, height = frame.state.height;
     vec4 surroundings(0);
     for (const Source &s : sources_)
@@ -158,9 +159,10 @@ void CalibratedSplatting::prepare(const ReferenceFrame &frame)
     // Sums over rectangles from the source's pixel on, per place: what falls into the image lies in four of them.
     const size_t row = size_t(width) + 1;
     std::vector<double> sums(row * (size_t(height) + 1));
-    std::vector<double> within(sources_.size(), 0.0);
+    std::vector<double> within(sources_.size(), 0.0), everywhere(sources_.size(), 0.0);
     for (int q = 0; q < places; ++q) {
-        const double place = q;
+        const double place = q,
+                     total = light_between(source, first_depth * std::exp2(place / finer_places), 0, std::numbers::pi);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const size_t i = (size_t(y) + 1) * row + size_t(x) + 1;
@@ -180,11 +182,14 @@ void CalibratedSplatting::prepare(const ReferenceFrame &frame)
                 // The axes were counted twice.
                 all -= sum(right, 1) + sum(left, 1) + sum(1, below) + sum(1, above) - sum(1, 1);
                 within[frame.index(x, y)] += weight * all;
+                everywhere[frame.index(x, y)] += weight * total;
             }
     }
     for (size_t i = 0; i < sources_.size(); ++i) {
-        sources_[i].radiance /= within[i];
-        sources_[i].coverage /= within[i];
+        const double outside = std::max(everywhere[i] / within[i] - 1, 0.0);
+        const double kept = (1 + beyond_edges * outside) / everywhere[i];
+        sources_[i].radiance *= kept;
+        sources_[i].coverage *= kept;
     }
 }
 

@@ -7,8 +7,8 @@
 // The same sums over the shares alone (`coverage`) tell how much that is, so that a uniform image stays as it is (the white
 // furnace). Needs radiance.glsl, pyramid.glsl, data.glsl.
 //
-// At reduced resolution all of it works on squares of pixels, of which one stands for the depth of all, but for what stays in
-// a pixel of its own light.
+// At reduced resolution all of it works on squares of pixels, of which one stands for the depth of all (the brightest where
+// light leaves, one in the middle where it arrives), but for what stays in a pixel of its own light.
 
 struct Calibrated {
     int top;             // K, the coarsest level

@@ -1,44 +1,84 @@
 // Kernel `calibrated`: the texels of its levels, and its squares of pixels at reduced resolution. Needs calibrated.glsl,
 // pyramid.glsl, upsample.glsl.
 
-// One texel of level `level` from the finer level, whose first row in its images is finer_row.
-PURE Spreading spreading_texel(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D finer, sampler2D finer_coverage,
-                               ivec2 finer_size, int finer_row, ivec2 texel, int level)
+// What is beyond the picture's edges, where nobody knows: its mirror image at this brightness.
+const float beyond_edges = R(0.5);
+
+// A level in its image. Where the picture ends within its last texels, these hold the mean of what they have of it.
+struct Level {
+    ivec2 size;
+    vec2 extent;  // of the picture, in texels
+    int row;      // first one
+};
+
+// One axis of a texel beyond an edge of the picture, where this is mirrored, so that no light is lost and sizes that are no
+// power of two show as much of it as others. Its mirror image may lie between two texels.
+struct Tap {
+    int first;
+    int second;
+    float toward;  // the second
+    float weight;
+};
+
+PURE Tap mirrored_tap(int i, int size, float extent, float beyond)
+{
+    if (i >= 0 && i < size)
+        return Tap(i, i, R(0.0), R(1.0));
+    float place = max(i < 0 ? -R(1.0) - float(i) : R(2.0) * extent - R(1.0) - float(i), R(0.0));
+    int first = min(int(place), size - 1);
+    return Tap(first, min(first + 1, size - 1), place - float(first), beyond);
+}
+
+PURE vec4 level_texel(sampler2D image, IN(Level) level, ivec2 texel, float beyond)
+{
+    Tap x = mirrored_tap(texel.x, level.size.x, level.extent.x, beyond);
+    Tap y = mirrored_tap(texel.y, level.size.y, level.extent.y, beyond);
+    vec4 v = texelFetch(image, ivec2(x.first, y.first + level.row), 0);
+    if (x.toward > R(0.0))
+        v = mix(v, texelFetch(image, ivec2(x.second, y.first + level.row), 0), x.toward);
+    if (y.toward > R(0.0)) {
+        vec4 w = texelFetch(image, ivec2(x.first, y.second + level.row), 0);
+        if (x.toward > R(0.0))
+            w = mix(w, texelFetch(image, ivec2(x.second, y.second + level.row), 0), x.toward);
+        v = mix(v, w, y.toward);
+    }
+    return x.weight * y.weight * v;
+}
+
+// One texel of level `level` from the finer one.
+PURE Spreading spreading_texel(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D radiance, sampler2D coverage,
+                               IN(Level) finer, ivec2 texel, int level)
 {
     vec4 sum = vec4(R(0.0));
-    vec4 coverage = vec4(R(0.0));
+    vec4 covered = vec4(R(0.0));
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
-            ivec2 from = finer_texel(texel, 4, i, j, finer_size, finer_row);
+            ivec2 from = texel * 2 + ivec2(i, j) - 1;
             float weight = kernel_weight(4, i) * kernel_weight(4, j);
-            sum += weight * texelFetch(finer, from, 0);
-            coverage += weight * texelFetch(finer_coverage, from, 0);
+            sum += weight * level_texel(radiance, finer, from, beyond_edges);
+            covered += weight * level_texel(coverage, finer, from, beyond_edges);
         }
-    return going_on(medium, f, table, sum, coverage, level);
+    return going_on(medium, f, table, sum, covered, level);
 }
 
 // From level 0 for level 1, from the surroundings of the finer level for others.
-PURE vec4 ambient_texel(IN(Calibrated) f, sampler2D finer, sampler2D finer_coverage, sampler2D finer_ambient, ivec2 finer_size,
-                        int finer_row, ivec2 texel, int level)
+PURE vec4 ambient_texel(IN(Calibrated) f, sampler2D radiance, sampler2D coverage, sampler2D ambient, IN(Level) finer,
+                        ivec2 texel, int level)
 {
     vec4 sum = vec4(R(0.0));
     for (int j = 0; j < 2; ++j)
         for (int i = 0; i < 2; ++i) {
-            ivec2 from = finer_texel(texel, 2, i, j, finer_size, finer_row);
-            if (level > 1) {
-                sum += R(0.25) * texelFetch(finer_ambient, from, 0);
-            } else {
-                sum += R(0.25) * ambient_source(vec3(texelFetch(finer, from, 0)),
-                                                coverage_of(f, texelFetch(finer_coverage, from, 0)));
-            }
+            ivec2 from = texel * 2 + ivec2(i, j);
+            if (from.x >= finer.size.x || from.y >= finer.size.y)
+                continue;
+            from.y += finer.row;
+            if (level > 1)
+                sum += R(0.25) * texelFetch(ambient, from, 0);
+            else
+                sum += R(0.25) * ambient_source(vec3(texelFetch(radiance, from, 0)),
+                                                coverage_of(f, texelFetch(coverage, from, 0)));
         }
     return sum;
-}
-
-// Beyond an edge the level is mirrored, which loses no light.
-PURE int mirrored(int i, int size)
-{
-    return clamp(i < 0 ? -1 - i : i >= size ? 2 * size - 1 - i : i, 0, size - 1);
 }
 
 // (1 4 6 4 1) / 16 for i from -2 to 2.
@@ -49,29 +89,43 @@ PURE float binomial_weight(int i)
 
 // What stays at a texel, from what it passes on, smoothed by a 5 x 5 binomial: round, and its bilinear interpolation shows no
 // creases.
-PURE Spreading stayed(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D stack, sampler2D coverage_stack, ivec2 size,
-                      int row, ivec2 texel, int level)
+PURE Spreading stayed(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D radiance, sampler2D coverage,
+                      IN(Level) own, ivec2 texel, int level)
 {
     vec4 sum = vec4(R(0.0));
-    vec4 coverage = vec4(R(0.0));
+    vec4 covered = vec4(R(0.0));
     for (int j = -2; j <= 2; ++j)
         for (int i = -2; i <= 2; ++i) {
-            ivec2 t = ivec2(mirrored(texel.x + i, size.x), mirrored(texel.y + j, size.y));
             float weight = binomial_weight(i) * binomial_weight(j);
-            sum += weight * texelFetch(stack, ivec2(t.x, t.y + row), 0);
-            coverage += weight * texelFetch(coverage_stack, ivec2(t.x, t.y + row), 0);
+            sum += weight * level_texel(radiance, own, texel + ivec2(i, j), beyond_edges);
+            covered += weight * level_texel(coverage, own, texel + ivec2(i, j), beyond_edges);
         }
-    return staying_of(medium, f, table, sum, coverage, level);
+    return staying_of(medium, f, table, sum, covered, level);
 }
 
-// The light of a square of pixels.
-PURE vec3 mean_of_square(sampler2D color, ivec2 texel, int reduction, ivec2 size)
+// A square of pixels, of which the picture may have a part only.
+struct Square {
+    vec3 color;       // mean
+    ivec2 brightest;  // the pixel that the light is taken to come from, so that lamps keep their depth wherever in it they are
+};
+
+PURE Square square_of(IN(Medium) medium, sampler2D color, ivec2 texel, int reduction, ivec2 size)
 {
+    ivec2 first = texel * reduction;
+    ivec2 count = min(ivec2(reduction), size - first);
     vec3 sum = vec3(R(0.0));
-    for (int j = 0; j < reduction; ++j)
-        for (int i = 0; i < reduction; ++i)
-            sum += finite_or_zero(vec3(texelFetch(color, min(texel * reduction + ivec2(i, j), size - 1), 0)));
-    return sum / float(reduction * reduction);
+    ivec2 brightest = first;
+    float most = R(-1.0);
+    for (int j = 0; j < count.y; ++j)
+        for (int i = 0; i < count.x; ++i) {
+            ivec2 at = first + ivec2(i, j);
+            vec3 l = finite_or_zero(vec3(texelFetch(color, at, 0)));
+            float y = luminance(medium.luminance, l);
+            brightest = y > most ? at : brightest;
+            most = max(y, most);
+            sum += l;
+        }
+    return Square(sum / float(count.x * count.y), brightest);
 }
 
 // The same from where it was collected for a pixel of each square. distances: in the fourth channel of the radiance.

@@ -15,8 +15,8 @@
 uniform Medium brume_medium;
 uniform Calibrated calibrated;
 uniform int level;
-uniform ivec2 finer_size;
-uniform ivec2 rows;  // first rows of the finer level and of this one in their images
+uniform Level finer;
+uniform int row;  // this level's first
 uniform sampler2D table;
 uniform sampler2D finer_radiance;
 uniform sampler2D finer_coverage;
@@ -30,11 +30,9 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    Spreading s =
-        spreading_texel(brume_medium, calibrated, table, finer_radiance, finer_coverage, finer_size, rows.x, p, level);
-    ivec2 to = ivec2(p.x, p.y + rows.y);
+    Spreading s = spreading_texel(brume_medium, calibrated, table, finer_radiance, finer_coverage, finer, p, level);
+    ivec2 to = ivec2(p.x, p.y + row);
     imageStore(radiance, to, s.radiance);
     imageStore(coverage, to, vec4(s.coverage, 1.0));
-    imageStore(ambient, to,
-               ambient_texel(calibrated, finer_radiance, finer_coverage, finer_ambient, finer_size, rows.x, p, level));
+    imageStore(ambient, to, ambient_texel(calibrated, finer_radiance, finer_coverage, finer_ambient, finer, p, level));
 }

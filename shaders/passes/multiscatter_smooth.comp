@@ -15,7 +15,7 @@
 uniform Medium brume_medium;
 uniform Calibrated calibrated;
 uniform int level;
-uniform int row;
+uniform Level own;
 uniform sampler2D table;
 uniform sampler2D radiance_stack;
 uniform sampler2D coverage_stack;
@@ -27,8 +27,8 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    ivec2 to = ivec2(p.x, p.y + row);
-    Spreading s = stayed(brume_medium, calibrated, table, radiance_stack, coverage_stack, brume_grid, row, p, level);
+    ivec2 to = ivec2(p.x, p.y + own.row);
+    Spreading s = stayed(brume_medium, calibrated, table, radiance_stack, coverage_stack, own, p, level);
     imageStore(radiance, to, s.radiance);
     imageStore(coverage, to, vec4(s.coverage, 1.0));
 }

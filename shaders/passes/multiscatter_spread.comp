@@ -31,13 +31,14 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    ivec2 at = representative(p, reduction, image_size);
+    Square square = square_of(brume_medium, color, p, reduction, image_size);
+    ivec2 at = square.brightest;
     vec2 centre = vec2(at) + 0.5;
     float raw_depth = texelFetch(depth, at, 0).r;
     Pixel pixel =
         pixel_in_medium(brume_medium, brume_camera, centre, raw_depth, texelFetch(gaussian_density, at, 0).r);
     Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share,
-                                   mean_of_square(color, p, reduction, image_size),
+                                   square.color,
                                    shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, raw_depth,
                                                pixel.density));
     imageStore(radiance, p, s.radiance);

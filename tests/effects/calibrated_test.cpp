@@ -80,7 +80,8 @@ TEST_P(Calibrated, WhiteFurnace)
                 }
 }
 
-// What arrives of a pixel's scattered light: T_tot - e^-tau, of which none is lost on the way over the pyramid.
+// What arrives of a pixel's scattered light: T_tot - e^-tau, of which none is lost on the way over the pyramid. The image
+// spans 160 degrees and so holds the widest spread.
 TEST_P(Calibrated, EnergyOfOnePixel)
 {
     for (double tau : {0.01, 0.1, 1.0, 4.0})
@@ -88,9 +89,10 @@ TEST_P(Calibrated, EnergyOfOnePixel)
             const int w = 256, h = 256;
             Picture color(w, h, 4, 0);
             color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
-            const Result r = run(
-                context(), scene("\"scattering\":" + std::to_string(tau / 20) + ",\"g\":0.9", kernel + quality), color,
-                Picture(w, h, 1, 20), {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
+            Json s = Json::parse(scene("\"scattering\":" + std::to_string(tau / 20) + ",\"g\":0.9", kernel + quality));
+            s["camera"]["vertical_fov"] = 160;
+            const Result r = run(context(), s.dump(), color, Picture(w, h, 1, 20),
+                                 {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
             const double expected = 1000 * (1 / (1 + 0.45 * std::pow(0.1 * tau, 1.2)) - std::exp(-tau));
             EXPECT_NEAR(scattered_sum(r) / expected, 1, 1e-3) << tau << quality;
         }
@@ -202,8 +204,8 @@ TEST_P(Calibrated, CropsAndFieldsOfView)
     const double degree = 3.14159265358979323846 / 180, half = 2 * std::atan(std::tan(25 * degree) * 67 / 135) / degree;
     const double narrow = View{2, 60, 34, 120, 67}.apart(context(), false, half, 20);
     printf("against the whole: a crop %.2f %%, half the field of view %.2f %% of the mean\n", 100 * crop, 100 * narrow);
-    EXPECT_LT(crop, 0.3);
-    EXPECT_LT(narrow, 0.15);
+    EXPECT_LT(crop, 0.17);
+    EXPECT_LT(narrow, 0.11);
 }
 
 // The same lamp before the same wall, in images of sizes next to powers of two and far from them.
@@ -227,7 +229,7 @@ TEST_P(Calibrated, AnySizeShowsAsMuchLight)
         }
         printf("a lamp at %.2f of the width: its light in the fog differs by a factor of %.3f between sizes\n", place,
                most / least);
-        EXPECT_LT(most / least, place == 0.5 ? 1.15 : 3.2) << place;
+        EXPECT_LT(most / least, place == 0.5 ? 1.03 : 1.5) << place;
     }
 }
 
@@ -260,10 +262,13 @@ TEST(CalibratedReference, WhiteFurnaceAndEnergyOfOnePixel)
         EXPECT_LT(worst.error, 1e-6) << medium << " " << worst.describe();
     }
     Picture color(48, 40, 4, 0);
-    color.at(3, 30)[0] = 1000;
-    const Result r = run(cpu(), scene("\"scattering\":0.05,\"g\":0.9", reference), color, Picture(48, 40, 1, 20),
+    color.at(23, 20)[0] = 1000;
+    Json wide = Json::parse(scene("\"scattering\":0.05,\"g\":0.9", reference));
+    wide["camera"]["vertical_fov"] = 160;
+    const Result r = run(cpu(), wide.dump(), color, Picture(48, 40, 1, 20),
                          {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
-    EXPECT_NEAR(scattered_sum(r) / (1000 * (1 / (1 + 0.45 * std::pow(0.1, 1.2)) - std::exp(-1.0))), 1, 1e-5);
+    EXPECT_NEAR(scattered_sum(r) / (1000 * (1 / (1 + 0.45 * std::pow(0.1, 1.2)) - std::exp(-1.0))), 1, 3e-3)
+        << "a sum over pixels, against the integral over angles";
 }
 
 TEST(GpuAgainstCpu, KernelCalibrated)

@@ -104,8 +104,8 @@ protected:
 
     // What is reached, so that a change shows.
     static constexpr Case cases[] = {{"", 0.06, 0.006, 0.02, 0.003},
-                                     {"\"resolution\":\"half\"", 0.25, 0.018, 0.10, 0.020},
-                                     {"\"resolution\":\"quarter\"", 0.35, 0.06, 0.30, 0.03}};
+                                     {"\"resolution\":\"half\"", 0.25, 0.006, 0.02, 0.003},
+                                     {"\"resolution\":\"quarter\"", 0.25, 0.008, 0.025, 0.004}};
 };
 
 }  // namespace
