@@ -29,8 +29,11 @@ PURE Tap mirrored_tap(int i, int size, float extent, float beyond)
     return Tap(first, min(first + 1, size - 1), place - float(first), beyond);
 }
 
-PURE vec4 level_texel(sampler2D image, IN(Level) level, ivec2 texel, float beyond)
+// within: whether the texel is known to lie within the level, as nearly all do.
+PURE vec4 level_texel(sampler2D image, IN(Level) level, ivec2 texel, float beyond, bool within)
 {
+    if (within)
+        return texelFetch(image, ivec2(texel.x, texel.y + level.row), 0);
     Tap x = mirrored_tap(texel.x, level.size.x, level.extent.x, beyond);
     Tap y = mirrored_tap(texel.y, level.size.y, level.extent.y, beyond);
     vec4 v = texelFetch(image, ivec2(x.first, y.first + level.row), 0);
@@ -45,20 +48,39 @@ PURE vec4 level_texel(sampler2D image, IN(Level) level, ivec2 texel, float beyon
     return x.weight * y.weight * v;
 }
 
+PURE bool lies_within(IN(Level) level, ivec2 first, ivec2 last)
+{
+    return first.x >= 0 && first.y >= 0 && last.x < level.size.x && last.y < level.size.y;
+}
+
+struct LevelSum {
+    vec4 radiance;
+    vec4 coverage;
+};
+
+PURE LevelSum finer_sum(sampler2D radiance, sampler2D coverage, IN(Level) finer, ivec2 first, bool within)
+{
+    LevelSum sum = LevelSum(vec4(R(0.0)), vec4(R(0.0)));
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i) {
+            float weight = kernel_weight(4, i) * kernel_weight(4, j);
+            sum.radiance += weight * level_texel(radiance, finer, first + ivec2(i, j), beyond_edges, within);
+            sum.coverage += weight * level_texel(coverage, finer, first + ivec2(i, j), beyond_edges, within);
+        }
+    return sum;
+}
+
 // One texel of level `level` from the finer one.
 PURE Spreading spreading_texel(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D radiance, sampler2D coverage,
                                IN(Level) finer, ivec2 texel, int level)
 {
-    vec4 sum = vec4(R(0.0));
-    vec4 covered = vec4(R(0.0));
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) {
-            ivec2 from = texel * 2 + ivec2(i, j) - 1;
-            float weight = kernel_weight(4, i) * kernel_weight(4, j);
-            sum += weight * level_texel(radiance, finer, from, beyond_edges);
-            covered += weight * level_texel(coverage, finer, from, beyond_edges);
-        }
-    return going_on(medium, f, table, sum, covered, level);
+    ivec2 first = texel * 2 - 1;
+    LevelSum sum;
+    if (lies_within(finer, first, first + 3))
+        sum = finer_sum(radiance, coverage, finer, first, true);
+    else
+        sum = finer_sum(radiance, coverage, finer, first, false);
+    return going_on(medium, f, table, sum.radiance, sum.coverage, level);
 }
 
 // From level 0 for level 1, from the surroundings of the finer level for others.
@@ -87,20 +109,29 @@ PURE float binomial_weight(int i)
     return i == 0 ? R(0.375) : abs(i) == 1 ? R(0.25) : R(0.0625);
 }
 
+PURE LevelSum smoothed_sum(sampler2D radiance, sampler2D coverage, IN(Level) own, ivec2 texel, bool within)
+{
+    LevelSum sum = LevelSum(vec4(R(0.0)), vec4(R(0.0)));
+    for (int j = -2; j <= 2; ++j)
+        for (int i = -2; i <= 2; ++i) {
+            float weight = binomial_weight(i) * binomial_weight(j);
+            sum.radiance += weight * level_texel(radiance, own, texel + ivec2(i, j), beyond_edges, within);
+            sum.coverage += weight * level_texel(coverage, own, texel + ivec2(i, j), beyond_edges, within);
+        }
+    return sum;
+}
+
 // What stays at a texel, from what it passes on, smoothed by a 5 x 5 binomial: round, and its bilinear interpolation shows no
 // creases.
 PURE Spreading stayed(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D radiance, sampler2D coverage,
                       IN(Level) own, ivec2 texel, int level)
 {
-    vec4 sum = vec4(R(0.0));
-    vec4 covered = vec4(R(0.0));
-    for (int j = -2; j <= 2; ++j)
-        for (int i = -2; i <= 2; ++i) {
-            float weight = binomial_weight(i) * binomial_weight(j);
-            sum += weight * level_texel(radiance, own, texel + ivec2(i, j), beyond_edges);
-            covered += weight * level_texel(coverage, own, texel + ivec2(i, j), beyond_edges);
-        }
-    return staying_of(medium, f, table, sum, covered, level);
+    LevelSum sum;
+    if (lies_within(own, texel - 2, texel + 2))
+        sum = smoothed_sum(radiance, coverage, own, texel, true);
+    else
+        sum = smoothed_sum(radiance, coverage, own, texel, false);
+    return staying_of(medium, f, table, sum.radiance, sum.coverage, level);
 }
 
 // A square of pixels, of which the picture may have a part only.
