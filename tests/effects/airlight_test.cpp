@@ -14,6 +14,8 @@ constexpr uint32_t shown =
 class AirlightOn : public testing::TestWithParam<const char *> {
 protected:
     brume_context context() { return backend(GetParam()); }
+    // On the CPU each effect rounds exponentials its own way; on GL all are the same.
+    double rounding() const { return std::string(GetParam()) == "cpu" ? 1e-6 : 0; }
     // On GL the one with Gaussians; AirlightGpuAgainstCpu has the others.
     std::vector<NamedScene> scenes() const
     {
@@ -132,11 +134,10 @@ TEST_P(AirlightOn, TransmittanceIsThatOfMultiscatter)
         other["effects"] = {{"multiscatter", Json::object()}};
         const Result a = fogged(scene, frame),
                      b = fogged(other, frame, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH);
-        // Each effect rounds exponentials its own way.
         const Worst transmittance = compare(a.transmittance, b.transmittance, 1e-3),
                     optical_depth = compare(a.optical_depth, b.optical_depth, 1e-3);
-        EXPECT_LT(transmittance.error, 1e-6) << name << " " << transmittance.describe();
-        EXPECT_LT(optical_depth.error, 1e-6) << name << " " << optical_depth.describe();
+        EXPECT_LE(transmittance.error, rounding()) << name << " " << transmittance.describe();
+        EXPECT_LE(optical_depth.error, rounding()) << name << " " << optical_depth.describe();
     }
 }
 
@@ -159,7 +160,7 @@ TEST_P(AirlightOn, AfterMultiscatterItOnlyAdds)
         const Worst worst = compare(added.output, expected, 1e-3);
         EXPECT_LT(worst.error, 1e-6) << name << " " << worst.describe();
         const Worst transmittance = compare(added.transmittance, plain.transmittance, 1e-3);
-        EXPECT_LT(transmittance.error, 1e-6) << name << " " << transmittance.describe();
+        EXPECT_LE(transmittance.error, rounding()) << name << " " << transmittance.describe();
     }
 }
 
