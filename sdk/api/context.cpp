@@ -23,6 +23,17 @@ struct Messages : std::vector<Message> {
 thread_local Messages messages;
 constexpr size_t message_limit = 16;
 
+// Null: there is no such effect.
+const std::vector<Layer> *layers_of(const Context &context, const char *effect)
+{
+    if (!effect)
+        return &host_layers();
+    for (const Effect &one : context.effects.all())
+        if (one.refusal.empty() && one.name == effect)
+            return &one.layers;
+    return nullptr;
+}
+
 uint64_t id_of(const Context *context)
 {
     return context ? context->id : 0;
@@ -162,6 +173,30 @@ brume_status brume_effect_get_info(brume_context context, uint32_t index, brume_
                      {0, uint32_t(effect.parameters.size()), effect.name.c_str(), effect.help.c_str(), effect.file.c_str(),
                       effect.refusal.empty() ? nullptr : effect.refusal.c_str()},
                      "brume_effect_info");
+    });
+}
+
+uint32_t brume_layer_count(brume_context handle, const char *effect)
+{
+    if (!handle)
+        return 0;
+    const std::vector<Layer> *layers = layers_of(*handle->context, effect);
+    return layers ? uint32_t(layers->size()) : 0;
+}
+
+brume_status brume_layer_get_info(brume_context handle, const char *effect, uint32_t index, brume_layer_info *info)
+{
+    if (!handle)
+        return barrier(nullptr, [] { expect(false, "context: NULL"); });
+    return barrier(handle->context.get(), [&] {
+        const std::vector<Layer> *layers = layers_of(*handle->context, effect);
+        if (!layers)
+            handle->context->effects.find(effect);  // says why not
+        if (!layers || index >= layers->size())
+            throw Error(BRUME_ERROR_ARGUMENT, "index: " + std::to_string(index) + "; there are " +
+                                                  std::to_string(layers ? layers->size() : 0) + " layers");
+        const Layer &layer = (*layers)[index];
+        write_struct(info, {0, layer.flags, layer.channels, 0, layer.name.c_str(), layer.help.c_str()}, "brume_layer_info");
     });
 }
 

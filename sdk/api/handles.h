@@ -72,7 +72,7 @@ template <class Function> brume_status barrier(const Context *context, Function 
 
 // A caller's structs, by the size it gave, each field in its range.
 brume_camera read_camera(const brume_camera *given, const char *name);
-brume_format read_format(const brume_format *given);
+Format read_format(const brume_format *given);
 brume_image read_image(const brume_image *given, const char *name);
 std::vector<Gaussian> read_gaussians(const brume_gaussian *given, uint32_t count, const std::string &name,
                                      const std::string &count_name);

@@ -1,6 +1,7 @@
-#include <bit>
 #include <cmath>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "api/handles.h"
 #include "api/structs.h"
@@ -19,17 +20,45 @@ brume_camera read_camera(const brume_camera *given, const char *name)
                        &brume_camera::center, &brume_camera::camera_to_world);
 }
 
-// Each flag once, and that of lights once for each of them.
-constexpr uint32_t most_extras = uint32_t(std::popcount(known_outputs)) - 1 + BRUME_MAX_LIGHTS;
+namespace {
 
-brume_format read_format(const brume_format *given)
+// A caller's layers by their stride; of formats without their images.
+std::vector<brume_layer> read_layers(const brume_layer *given, uint32_t count, const std::string &name, bool of_frame)
+{
+    if (count > BRUME_MAX_LAYERS)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {} layers; expected 0 to {}", name, count, BRUME_MAX_LAYERS));
+    if (count > 0 && !given)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: NULL; expected {} layers", name, count));
+    std::vector<brume_layer> layers(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        const std::string element_name = fmt::format("{}[{}]", name, i);
+        brume_layer &layer = layers[i];
+        layer = read_struct(element(given, i), brume_layer BRUME_LAYER_INIT, element_name.c_str(), &brume_layer::kind,
+                            &brume_layer::name, &brume_layer::image, &brume_layer::light, &brume_layer::reserved);
+        if (!layer.name || !*layer.name)
+            throw Error(BRUME_ERROR_ARGUMENT, element_name + ".name: " + (layer.name ? "empty" : "NULL") + "; expected that of a layer");
+        if (layer.kind > BRUME_LAYER_CAMERA)
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.kind: {}; expected a BRUME_LAYER_...", element_name, layer.kind));
+        if (layer.reserved != 0)
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.reserved: {}; expected 0", element_name, layer.reserved));
+        for (uint32_t k = 0; k < i && !of_frame; ++k)
+            if (std::string_view(layers[k].name) == layer.name)
+                throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{} ({}): given twice", element_name, layer.name));
+    }
+    return layers;
+}
+
+}  // namespace
+
+Format read_format(const brume_format *given)
 {
     brume_format format = BRUME_FORMAT_INIT;
     format =
         read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height, &brume_format::display_x,
                     &brume_format::display_y, &brume_format::display_width, &brume_format::display_height,
                     &brume_format::depth_kind, &brume_format::depth_range, &brume_format::far_distance, &brume_format::sky,
-                    &brume_format::outputs, &brume_format::sky_distance, &brume_format::nonpositive);
+                    &brume_format::input_count, &brume_format::sky_distance, &brume_format::nonpositive, &brume_format::output_count,
+                    &brume_format::inputs, &brume_format::outputs);
     expect(format.width >= 1 && format.width <= 65536, "brume_format.width: expected 1 to 65536");
     expect(format.height >= 1 && format.height <= 65536, "brume_format.height: expected 1 to 65536");
     expect(format.display_width >= 0 && format.display_height >= 0 &&
@@ -38,7 +67,6 @@ brume_format read_format(const brume_format *given)
     expect(format.depth_kind <= BRUME_DEPTH_DEVICE, "brume_format.depth_kind: expected a BRUME_DEPTH_...");
     expect(format.sky <= BRUME_SKY_CLAMP, "brume_format.sky: expected a BRUME_SKY_...");
     expect(format.nonpositive <= BRUME_NONPOSITIVE_NEAR, "brume_format.nonpositive: expected a BRUME_NONPOSITIVE_...");
-    expect((format.outputs & ~known_outputs) == 0, "brume_format.outputs: expected BRUME_OUTPUT_... flags");
     expect(format.far_distance > 0, "brume_format.far_distance: expected a positive number");
     bool device = format.depth_kind == BRUME_DEPTH_DEVICE;
     if (device || format.depth_kind == BRUME_DEPTH_NORMALIZED)
@@ -50,6 +78,10 @@ brume_format read_format(const brume_format *given)
            "brume_format.depth_range: expected two different distances");
     expect(format.sky != BRUME_SKY_CLAMP || (format.sky_distance >= 0 && std::isfinite(format.sky_distance)),
            "brume_format.sky_distance: expected a finite distance of 0 or more");
+    const std::vector<brume_layer> inputs = read_layers(format.inputs, format.input_count, "brume_format.inputs", false),
+                                   outputs = read_layers(format.outputs, format.output_count, "brume_format.outputs", false);
+    format.inputs = inputs.data();
+    format.outputs = outputs.data();
     return format;
 }
 
@@ -90,6 +122,21 @@ brume_image read_image(const brume_image *given, const char *name)
 
 namespace {
 
+// A frame's layers with their images read.
+struct LayersOfFrame {
+    LayersOfFrame(const brume_layer *given, uint32_t count, const std::string &name)
+        : layers(read_layers(given, count, name, true)), images(count)
+    {
+        for (uint32_t i = 0; i < count; ++i) {
+            images[i] = read_image(layers[i].image, fmt::format("{}[{}] ({}).image", name, i, layers[i].name).c_str());
+            layers[i].image = &images[i];
+        }
+    }
+
+    std::vector<brume_layer> layers;
+    std::vector<brume_image> images;
+};
+
 template <class Function> brume_status with_plan(brume_plan plan, Function function)
 {
     if (!plan)
@@ -111,6 +158,17 @@ brume_status brume_plan_create(brume_scene scene, const brume_format *format, br
         expect(out, "out: NULL");
         Chosen chosen = plan_with_quality(scene->context, scene->scene, read_format(format));
         *out = new brume_plan_t{scene->context, std::move(chosen.plan), std::move(chosen.quality)};
+    });
+}
+
+brume_status brume_plan_update(brume_plan handle, brume_scene scene, const brume_format *format)
+{
+    return with_plan(handle, [&](brume_host_t &plan) {
+        expect(scene, "scene: NULL");
+        if (!format)
+            return plan.update(scene->scene, nullptr);
+        const Format next = read_format(format);
+        plan.update(scene->scene, &next);
     });
 }
 
@@ -154,8 +212,10 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
 {
     return with_plan(handle, [&](brume_host_t &plan) {
         brume_frame frame = BRUME_FRAME_INIT;
-        frame = read_struct(given, frame, "brume_frame", &brume_frame::extra_count, &brume_frame::color, &brume_frame::depth,
-                            &brume_frame::output, &brume_frame::extra, &brume_frame::camera, &brume_frame::frame);
+        frame = read_struct(given, frame, "brume_frame", &brume_frame::input_count, &brume_frame::color, &brume_frame::depth,
+                            &brume_frame::output, &brume_frame::inputs, &brume_frame::outputs, &brume_frame::output_count,
+                            &brume_frame::reserved, &brume_frame::camera, &brume_frame::frame);
+        expect(frame.reserved == 0, "brume_frame.reserved: expected 0");
         expect(std::isfinite(frame.frame), "brume_frame.frame: expected a finite number");
         brume_image color = read_image(frame.color, "color");
         brume_image output = read_image(frame.output, "output");
@@ -171,20 +231,9 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
             camera = read_camera(frame.camera, "camera");
             frame.camera = &camera;
         }
-        if (frame.extra_count > most_extras)
-            throw Error(BRUME_ERROR_ARGUMENT, "brume_frame.extra_count: " + std::to_string(frame.extra_count) +
-                                                  "; expected 0 to " + std::to_string(most_extras));
-        expect(frame.extra || frame.extra_count == 0, "brume_frame.extra: NULL with an extra_count above 0");
-        std::vector<brume_extra_output> extras(frame.extra_count);
-        std::vector<brume_image> images(frame.extra_count);
-        for (uint32_t i = 0; i < frame.extra_count; ++i) {
-            std::string name = "extra[" + std::to_string(i) + "]";
-            extras[i] = read_struct(element(frame.extra, i), brume_extra_output BRUME_EXTRA_OUTPUT_INIT, name.c_str(),
-                                    &brume_extra_output::output, &brume_extra_output::image, &brume_extra_output::light);
-            images[i] = read_image(extras[i].image, (name + ".image").c_str());
-            extras[i].image = &images[i];
-        }
-        frame.extra = extras.data();
+        const LayersOfFrame inputs(frame.inputs, frame.input_count, "inputs"), outputs(frame.outputs, frame.output_count, "outputs");
+        frame.inputs = inputs.layers.data();
+        frame.outputs = outputs.layers.data();
         plan.execute(frame);
     });
 }

@@ -8,6 +8,7 @@
 #include <brume/brume_plugin.h>
 
 #include "core/log.h"
+#include "core/pass_layout.h"
 
 // The plugin ABI's opaque types are the backend's classes themselves.
 struct brume_plugin_image_t {
@@ -17,14 +18,17 @@ struct brume_plugin_image_t {
     int32_t channels = 0;
 };
 
-struct brume_program_t {
-    virtual ~brume_program_t() = default;
+// A pass of a plan, as one backend runs it.
+struct brume_pass_t {
+    virtual ~brume_pass_t() = default;
+    brume::PassLayout layout;
+    int entry = -1;  // the plan's, whose time it counts to
 };
 
 namespace brume {
 
 using Image = brume_plugin_image_t;
-using Program = brume_program_t;
+using Pass = brume_pass_t;
 
 // Times the passes of one plan's frames. A pass lasts from its mark to the next one; passes marked several times add up.
 class FrameTimer {
@@ -59,8 +63,8 @@ public:
 
     // A pooled image; it goes back to the pool when the last owner lets go.
     virtual std::shared_ptr<Image> create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel) = 0;
-    virtual std::shared_ptr<Program> compile(const std::string &name, const std::string &source,
-                                             const std::string &defines) = 0;
+    // The description has been checked by layout_of(); throws Error where this backend cannot run it.
+    virtual std::shared_ptr<Pass> create_pass(const brume_pass_desc &desc, PassLayout layout) = 0;
     virtual std::unique_ptr<FrameTimer> create_timer() = 0;
 
     // Checks that an image of the caller's is usable here as input (writable: as output); throws Error.
@@ -82,9 +86,9 @@ public:
     // Ends a frame: whatever the caller may do next sees what was written.
     virtual void flush() = 0;
 
-    virtual void run(const brume_plugin_pass &pass, const brume_plugin_scene &scene) = 0;
-    virtual brume_status rows(int32_t count, int32_t grain, brume_rows_function function, void *user) = 0;
-    virtual brume_plugin_pixels pixels(Image &image) = 0;
+    // images: in the order of the pass's slots, as many; constants: of the pass's size.
+    virtual brume_status run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width,
+                             int32_t height, const brume_plugin_scene &scene, void *user) = 0;
 };
 
 struct GlOptions {

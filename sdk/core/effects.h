@@ -9,10 +9,6 @@
 
 namespace brume {
 
-inline constexpr uint32_t known_outputs = BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED |
-                                          BRUME_OUTPUT_BLUR_RADIUS | BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR |
-                                          BRUME_OUTPUT_LIGHT_AIRLIGHT;
-
 // One parameter of an effect's table, checked and copied so that a plugin's memory cannot surprise us.
 struct Parameter {
     std::string name, unit, help;
@@ -22,12 +18,21 @@ struct Parameter {
     std::vector<std::string> choices;
 };
 
+// A layer of an effect's table, likewise.
+struct Layer {
+    std::string name, help;
+    uint32_t flags = 0;  // BRUME_LAYER_...
+    uint32_t channels = 3;
+};
+
 // A plugin that was taken, or (refusal not empty) why it was not.
 struct Effect {
     std::string name, help, file, refusal;
     int32_t order = 0;
     uint32_t wanted = BRUME_WANTED_NEVER;
     std::vector<Parameter> parameters;
+    std::vector<Layer> layers;
+    std::vector<std::string> makes, uses;  // products
     const brume_effect *table = nullptr;
     decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it
     std::shared_ptr<void> library;  // keeps the code loaded

@@ -82,7 +82,7 @@ std::vector<Cone> tile_cones(const brume_plugin_camera &camera, int32_t columns,
 
 TileEstimate estimate_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height)
 {
-    const brume_plugin_camera &camera = scene.camera;
+    const brume_plugin_camera &camera = *scene.camera;
     const maths_double::Medium medium = maths_double::medium_of(scene);
     const int32_t columns = (width + BRUME_TILE_SIZE - 1) / BRUME_TILE_SIZE,
                   rows = (height + BRUME_TILE_SIZE - 1) / BRUME_TILE_SIZE;
@@ -101,7 +101,7 @@ TileEstimate estimate_tiles(const brume_plugin_scene &scene, int32_t width, int3
 
 void build_tiles(const brume_plugin_scene &scene, int32_t width, int32_t height, GaussianTiles &out)
 {
-    const brume_plugin_camera &camera = scene.camera;
+    const brume_plugin_camera &camera = *scene.camera;
     const maths_double::Medium medium = maths_double::medium_of(scene);
     out.columns = (width + BRUME_TILE_SIZE - 1) / BRUME_TILE_SIZE;
     out.rows = (height + BRUME_TILE_SIZE - 1) / BRUME_TILE_SIZE;

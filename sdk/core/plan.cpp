@@ -5,10 +5,11 @@
 #include <cfloat>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/plugin_lock.h"
 #include "core/services.h"
-#include "core/view.h"
 
 using namespace brume;
 
@@ -17,16 +18,16 @@ namespace {
 const std::string host_name = "brume";  // of the host's own entries
 constexpr uint32_t most_offers = 64;
 
-// What a rehearsal hands out in place of images and programs.
+// What a rehearsal hands out in place of images and passes.
 Image *image_of_rehearsal()
 {
     static Image image;
     return &image;
 }
-Program *program_of_rehearsal()
+Pass *pass_of_rehearsal()
 {
-    static Program program;
-    return &program;
+    static Pass pass;
+    return &pass;
 }
 
 bool on_llvmpipe(const Backend &backend)
@@ -34,38 +35,44 @@ bool on_llvmpipe(const Backend &backend)
     return backend.device().find("llvmpipe") != std::string::npos;
 }
 
-std::string output_names(uint32_t outputs)
+bool contains(const std::vector<std::string> &names, const std::string &name)
 {
-    const char *const names[] = {"transmittance", "optical depth",  "scattered",          "blur radius",
-                                 "airlight",      "airlight error", "airlight of a light"};
-    std::string text;
-    for (uint32_t i = 0; i < std::size(names); ++i)
-        if (outputs & (1u << i))
-            text += (text.empty() ? "" : ", ") + std::string(names[i]);
-    return text;
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_lit(const Scene &scene)
+{
+    return !scene.lights.empty() || !scene.environment.coefficients.empty();
+}
+
+// Whether the scene's content, which names no effects, asks for this one.
+bool wants(const Scene &scene, const Effect &effect)
+{
+    return scene.medium && !scene.effects_named && effect.refusal.empty() &&
+           (effect.wanted == BRUME_WANTED_WITH_MEDIUM || (effect.wanted == BRUME_WANTED_WITH_LIGHTS && is_lit(scene)));
 }
 
 }  // namespace
 
-brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const brume_format &format, Purpose purpose)
-    : context_(std::move(context)), scene_(std::move(scene)), format_(format), rehearsal_(purpose == Purpose::rehearsal)
+brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const Format &format, Purpose purpose)
+    : context_(std::move(context)), scene_(std::move(scene)), format_(format), structure_(scene_, format_),
+      rehearsal_(purpose == Purpose::rehearsal)
 {
     context_->backend->invoke([&] {
         int32_t largest = context_->backend->largest_size();
         if (format_.width > largest || format_.height > largest)
-            throw Error(BRUME_ERROR_UNSUPPORTED, "format: " + std::to_string(format_.width) + " x " +
-                                                     std::to_string(format_.height) + "; this device takes up to " +
-                                                     std::to_string(largest) + " a side");
+            throw Error(BRUME_ERROR_UNSUPPORTED, fmt::format("format: {} x {}; this device takes up to {} a side", format_.width,
+                                                             format_.height, largest));
         try {
+            layers_.plan(format_, context_->effects);
+            choose_effects();
+            order_effects();
+            set_parameters();
             plan_effects();
             if (!rehearsal_)
                 timer_ = context_->backend->create_timer();
         } catch (...) {
-            destroy_states();
-            data_.clear();
-            images_.clear();
-            between_[0] = between_[1] = nullptr;
-            programs_.clear();
+            release();
             throw;
         }
     });
@@ -75,16 +82,22 @@ brume_host_t::~brume_host_t()
 {
     try {
         context_->backend->invoke([&] {
-            destroy_states();
-            data_.clear();
-            images_.clear();
-            between_[0] = between_[1] = nullptr;
-            programs_.clear();
+            release();
             timer_.reset();
         });
     } catch (const std::exception &error) {
         context_->log(BRUME_LOG_ERROR, std::string("plan: ") + error.what());
     }
+}
+
+void brume_host_t::release() noexcept
+{
+    destroy_states();
+    layers_.release();
+    data_.clear();
+    images_.clear();
+    between_[0] = between_[1] = nullptr;
+    passes_.clear();
 }
 
 void brume_host_t::destroy_states() noexcept
@@ -102,41 +115,48 @@ void brume_host_t::destroy_states() noexcept
     }
 }
 
-bool brume_host_t::does_nothing() const
-{
-    return std::none_of(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
-}
-
-bool brume_host_t::lights_scatter() const
-{
-    return std::any_of(effects_.begin(), effects_.end(),
-                       [](auto &planned) { return planned.effect->wanted == BRUME_WANTED_WITH_LIGHTS; });
-}
-
-void brume_host_t::plan_effects()
+void brume_host_t::choose_effects()
 {
     const auto &registry = context_->effects;
     for (const EffectSettings &settings : scene_.effects)
-        effects_.push_back({.effect = &registry.find(settings.name)});
+        effects_.push_back({.effect = &registry.find(settings.name), .named = true});
     for (const Effect &effect : registry.all()) {
-        bool lit = !scene_.lights.empty() || !scene_.environment.coefficients.empty();
-        bool needed = scene_.medium && !scene_.effects_named && effect.refusal.empty() &&
-                      (effect.wanted == BRUME_WANTED_WITH_MEDIUM || (effect.wanted == BRUME_WANTED_WITH_LIGHTS && lit));
-        if (needed && std::none_of(effects_.begin(), effects_.end(), [&](auto &p) { return p.effect == &effect; }))
+        const bool there = std::any_of(effects_.begin(), effects_.end(), [&](auto &p) { return p.effect == &effect; });
+        if (wants(scene_, effect) && !there)
             effects_.push_back({.effect = &effect});
-        if (!needed && !lit && scene_.medium && !scene_.effects_named && effect.refusal.empty() &&
+        if (scene_.medium && !scene_.effects_named && !is_lit(scene_) && effect.refusal.empty() &&
             effect.wanted == BRUME_WANTED_WITH_LIGHTS)
             entries_.push_back({false, effect.name, effect.name, "no lights and no environment", 0, 0, 0});
     }
-    std::sort(effects_.begin(), effects_.end(), [](const auto &a, const auto &b) {
+}
+
+// By their numbers, but after those that make what they use.
+void brume_host_t::order_effects()
+{
+    std::vector<PlannedEffect> waiting = std::move(effects_);
+    std::sort(waiting.begin(), waiting.end(), [](const auto &a, const auto &b) {
         return std::pair(a.effect->order, a.effect->name) < std::pair(b.effect->order, b.effect->name);
     });
-    if (!scene_.medium && scene_.effects.empty())
-        entries_.push_back({false, "brume", "medium", "the scene has no medium: nothing to do", 0, 0, 0});
-    if (!scene_.lights.empty() && !lights_scatter())
-        entries_.push_back({false, "brume", "lights",
-                            std::to_string(scene_.lights.size()) + " lights: no effect of this scene reads them", 0, 0, 0});
+    effects_.clear();
+    auto makes_for = [](const PlannedEffect &maker, const PlannedEffect &user) {
+        return maker.effect != user.effect && std::any_of(user.effect->uses.begin(), user.effect->uses.end(), [&](auto &product) {
+                   return contains(maker.effect->makes, product);
+               });
+    };
+    while (!waiting.empty()) {
+        const auto ready = std::find_if(waiting.begin(), waiting.end(), [&](const PlannedEffect &user) {
+            return std::none_of(waiting.begin(), waiting.end(), [&](auto &maker) { return makes_for(maker, user); });
+        });
+        if (ready == waiting.end())
+            throw Error(BRUME_ERROR_PLUGIN, fmt::format("{} and {}: each uses what the other makes", waiting[0].effect->name,
+                                                        waiting[1].effect->name));
+        effects_.push_back(std::move(*ready));
+        waiting.erase(ready);
+    }
+}
 
+void brume_host_t::set_parameters()
+{
     for (auto &planned : effects_) {
         for (const Parameter &parameter : planned.effect->parameters)
             planned.parameters.push_back(parameter.default_value);
@@ -144,28 +164,63 @@ void brume_host_t::plan_effects()
             if (settings.name == planned.effect->name)
                 for (auto &[name, value] : settings.parameters)
                     planned.parameters[find_parameter(*planned.effect, name)] = value;
+        planned.layer_places = layers_.places(planned.effect->layers);
+        for (const std::string &product : planned.effect->uses)
+            planned.uses.push_back(&products_.of(product));
     }
-    brume_plugin_scene scene{};
-    scene.struct_size = sizeof scene;
-    View view = view_of(scene_, nullptr, 0, format_);
-    fill_camera(scene_, view, format_, BRUME_ORIGIN_TOP_LEFT, scene.camera);
-    scene.has_medium = scene_.medium ? 1 : 0;
-    evaluate_medium(with_peak_medium(scene_), 0, view.camera_to_world, scene.medium);
-    scene.output_limit = FLT_MAX;
-    plan_content(view, scene);
-    uint32_t filled = 0;
-    bool attenuated = false;
-    for (auto &planned : effects_) {
-        plan_effect(planned, scene, attenuated);
-        filled |= planned.runs ? planned.effect->table->outputs : 0;
-        attenuated = attenuated || (planned.runs && planned.effect->table->attenuates);
-    }
-    if (uint32_t missing = format_.outputs & ~filled)
-        throw Error(BRUME_ERROR_UNSUPPORTED, "format.outputs: nothing that runs fills " + output_names(missing) +
-                                                 (entries_.empty() ? "" : " (" + entries_.back().reason + ")"));
+}
 
-    auto running = std::count_if(effects_.begin(), effects_.end(), [](auto &planned) { return planned.runs; });
-    for (int i = 0; i < std::min<int>(int(running) - 1, 2) && !rehearsal_; ++i) {
+bool brume_host_t::is_made_by(const Effect &effect, const std::string &product) const
+{
+    return contains(effect.makes, product);
+}
+
+uint32_t brume_host_t::made(const std::string &product) const
+{
+    if (product == "density_rgb")
+        return layers_.has_input("optical_depth") || layers_.has_input("transmittance") ? BRUME_MADE_EARLIER : BRUME_MADE_NOWHERE;
+    if (HostProducts::makes(product))
+        return BRUME_MADE_EARLIER;
+    bool passed = false;
+    uint32_t made = BRUME_MADE_NOWHERE;
+    for (const PlannedEffect &planned : effects_) {
+        passed = passed || &planned == current_;
+        if (!contains(planned.effect->makes, product))
+            continue;
+        if (!passed && planned.runs)
+            return BRUME_MADE_EARLIER;
+        if (passed)
+            made = BRUME_MADE_LATER;
+    }
+    return made;
+}
+
+void brume_host_t::plan_effects()
+{
+    if (!scene_.medium && scene_.effects.empty())
+        entries_.push_back({false, "brume", "medium", "the scene has no medium: nothing to do", 0, 0, 0});
+    if (!scene_.lights.empty() && std::none_of(effects_.begin(), effects_.end(), [](auto &planned) {
+            return contains(planned.effect->uses, "lights") || contains(planned.effect->makes, "single_scattering");
+        }))
+        entries_.push_back({false, "brume", "lights",
+                            fmt::format("{} lights: no effect of this scene reads them", scene_.lights.size()), 0, 0, 0});
+
+    const brume_plugin_scene &scene = content_.plan(scene_, format_);
+    if (!effects_.empty() && has_gaussians(scene_))
+        need_camera(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE, "the medium's Gaussians are placed in the world");
+    for (auto &planned : effects_)
+        if (!lacks_layer(planned))
+            plan_effect(planned, scene);
+    current_ = nullptr;
+    for (auto &planned : effects_)
+        if (planned.runs)
+            running_.push_back(&planned);
+    check_outputs();
+    plan_host_products(scene);
+    bind_passes();
+    content_.scene_changed();
+
+    for (int i = 0; i < std::min<int>(int(running_.size()) - 1, 2) && !rehearsal_; ++i) {
         between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
         image_bytes_ += uint64_t(format_.width) * uint64_t(format_.height) * 16;
     }
@@ -175,36 +230,76 @@ void brume_host_t::plan_effects()
                 context_->rates.milliseconds(*context_->backend, entry.effect, entry.name, entry.operations, entry.bytes);
 }
 
-// Lights, environment and Gaussians as effects see them when planning. Of Gaussians only that there are some where files
-// bring them with the frame, or frames the camera.
-void brume_host_t::plan_content(const View &view, brume_plugin_scene &scene)
+// An effect that the scene names must run; another one is left out.
+bool brume_host_t::lacks_layer(PlannedEffect &planned)
 {
-    if (!scene_.environment.file.empty() && scene_.environment.coefficients.empty())
-        throw Error(BRUME_ERROR_SCENE,
-                    "environment.file: " + scene_.environment.file +
-                        " is not read by the library; expected brume_scene_set_environment to have been called");
-    for (auto &c : scene_.environment.coefficients)
-        environment_.push_back({float(c[0]), float(c[1]), float(c[2])});
-    evaluate_lights(scene_, 0, view.camera_to_world, lights_);
-    scene.lights = lights_.data();
-    scene.light_count = uint32_t(lights_.size());
-    scene.environment = environment_.empty() ? nullptr : reinterpret_cast<const float(*)[3]>(environment_.data());
-    scene.environment_count = uint32_t(environment_.size());
-    const bool any_gaussians = has_gaussians(scene_);
-    scene.gaussian_count = any_gaussians ? 1 : 0;
-    const uint32_t placed = BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE;
-    if (any_gaussians && (view.given & placed) == placed && !reads_gaussians_by_frame(scene_)) {
-        evaluate_gaussians(scene_, 0, view.camera_to_world, gaussians_);
-        if (!gaussians_.empty()) {
-            scene.gaussians = gaussians_.data();
-            scene.gaussian_count = uint32_t(gaussians_.size());
-        }
+    for (size_t i = 0; i < planned.effect->layers.size(); ++i) {
+        const Layer &layer = planned.effect->layers[i];
+        if (!(layer.flags & BRUME_LAYER_NEEDED) || planned.layer_places[i] >= 0)
+            continue;
+        const std::string reason = fmt::format("needs an input layer {}: {}", layer.name, layer.help);
+        if (planned.named)
+            throw Error(BRUME_ERROR_UNSUPPORTED, planned.effect->name + " " + reason);
+        entries_.push_back({false, planned.effect->name, planned.effect->name, reason, 0, 0, 0});
+        return true;
     }
-    if (effects_.empty())
-        return;
-    if (any_gaussians)
-        need_camera(placed, "the medium's Gaussians are placed in the world");
-    scene_images_.plan(*this, scene, format_, context_->backend->kind());
+    return false;
+}
+
+void brume_host_t::check_outputs() const
+{
+    std::string missing;
+    for (const FormatLayer &layer : layers_.all()) {
+        const bool filled = std::any_of(running_.begin(), running_.end(), [&](const PlannedEffect *planned) {
+            return std::any_of(planned->effect->layers.begin(), planned->effect->layers.end(), [&](const Layer &of) {
+                return of.flags & BRUME_LAYER_OUTPUT && of.name == layer.name.name;
+            });
+        });
+        if (layer.flags & BRUME_LAYER_OUTPUT && !filled)
+            missing += (missing.empty() ? "" : ", ") + layer.name.name;
+    }
+    if (!missing.empty())
+        throw Error(BRUME_ERROR_UNSUPPORTED, "format.outputs: nothing that runs fills " + missing +
+                                                 (entries_.empty() ? "" : " (" + entries_.back().reason + ")"));
+}
+
+// What running effects use; its entries stand before theirs, as it runs.
+void brume_host_t::plan_host_products(const brume_plugin_scene &scene)
+{
+    std::vector<std::string> uses;
+    for (const PlannedEffect *planned : running_)
+        uses.insert(uses.end(), planned->effect->uses.begin(), planned->effect->uses.end());
+    const auto first = ptrdiff_t(entries_.size());
+    host_products_.plan(*this, uses, scene, layers_, format_.width, format_.height);
+    std::rotate(entries_.begin(), entries_.begin() + first, entries_.end());
+    for (const FormatLayer &layer : layers_.all()) {
+        const bool by_host = contains(uses, "density") && std::any_of(host_layers().begin(), host_layers().end(), [&](auto &of) {
+                                 return of.name == layer.name.name;
+                             });
+        const bool read = by_host || std::any_of(running_.begin(), running_.end(), [&](const PlannedEffect *planned) {
+                              return std::any_of(planned->effect->layers.begin(), planned->effect->layers.end(), [&](auto &of) {
+                                  return of.flags & BRUME_LAYER_INPUT && of.name == layer.name.name;
+                              });
+                          });
+        if (layer.flags & BRUME_LAYER_INPUT && !read)
+            entries_.push_back({false, "brume", layer.name.name, "an input layer that nothing which runs reads", 0, 0, 0});
+    }
+}
+
+// Finds the entry that each pass's time counts to.
+void brume_host_t::bind_passes()
+{
+    for (size_t i = 0; i < passes_.size(); ++i) {
+        Pass &pass = *passes_[i];
+        const std::string &owner = pass_owners_[i] ? pass_owners_[i]->name : host_name;
+        const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const PlanEntry &entry) {
+            return entry.runs && entry.effect == owner && entry.name == pass.layout.name;
+        });
+        if (found == entries_.end())
+            throw Error(BRUME_ERROR_PLUGIN, fmt::format("{}: pass \"{}\" is not among the running entries of the plan", owner,
+                                                        pass.layout.name));
+        pass.entry = int(found - entries_.begin());
+    }
 }
 
 void brume_host_t::warn_on_software_gl(const std::string &message)
@@ -215,39 +310,55 @@ void brume_host_t::warn_on_software_gl(const std::string &message)
     context_->log(BRUME_LOG_WARNING, message);
 }
 
-void brume_host_t::evaluate_content(double frame, const View &view, brume_plugin_scene &scene)
+void brume_host_t::update(const Scene &scene, const Format *format)
 {
-    if (scene_.animated() && frame != content_frame_)
-        ++revision_;
-    content_frame_ = frame;
-    scene.revision = revision_;
-    evaluate_lights(scene_, frame, view.camera_to_world, lights_);
-    evaluate_gaussians(scene_, frame, view.camera_to_world, gaussians_);
-    scene.lights = lights_.data();
-    scene.light_count = uint32_t(lights_.size());
-    scene.gaussians = gaussians_.data();
-    scene.gaussian_count = uint32_t(gaussians_.size());
-    scene.environment = environment_.empty() ? nullptr : reinterpret_cast<const float(*)[3]>(environment_.data());
-    scene.environment_count = uint32_t(environment_.size());
-    for (size_t i = 0; i < 3; ++i)
-        scene.position[i] = view.camera_to_world[4 * i + 3] * scene_.metres_per_unit;
+    const Format &next = format ? *format : format_;
+    std::string difference = structure_.difference(Structure(scene, next));
+    auto same_layers = [](const std::vector<Format::LayerName> &a, const std::vector<Format::LayerName> &b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                          [](auto &x, auto &y) { return x.name == y.name && x.kind == y.kind; });
+    };
+    if (difference.empty() && !(same_layers(next.input_layers, format_.input_layers) &&
+                                same_layers(next.output_layers, format_.output_layers)))
+        difference = "format: the layers";
+    if (difference.empty()) {
+        auto same_settings = [](const EffectSettings &a, const EffectSettings &b) {
+            return a.name == b.name && a.parameters == b.parameters;
+        };
+        // The scene of a plan with a wish for quality has what was chosen for it as parameters.
+        if (!scene.quality.asked() &&
+            !(scene.effects_named == scene_.effects_named && std::equal(scene.effects.begin(), scene.effects.end(),
+                                                                       scene_.effects.begin(), scene_.effects.end(), same_settings)))
+            difference = "effects: they or their parameters are others";
+    }
+    if (!difference.empty())
+        throw Error(BRUME_ERROR_FORMAT, "plan: of another structure than the scene it was made for: " + difference +
+                                            "; expected a new plan for it");
+    Scene kept = scene;
+    std::swap(kept.effects, scene_.effects);
+    kept.effects_named = scene_.effects_named;
+    kept.quality = scene_.quality;
+    scene_ = std::move(kept);
+    if (format)
+        format_ = *format;
+    content_.scene_changed();
 }
 
-void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene, bool attenuated)
+void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene)
 {
+    const std::vector<uint32_t> layers = layers_.given(planned.effect->layers);
     brume_plugin_request request{};
     request.struct_size = sizeof request;
     request.backend = context_->backend->kind();
     request.width = format_.width;
     request.height = format_.height;
-    request.outputs = format_.outputs;
     request.parameter_count = uint32_t(planned.parameters.size());
     request.parameters = planned.parameters.data();
+    request.layer_count = uint32_t(layers.size());
+    request.layers = layers.data();
     request.scene = &scene;
     request.animated = scene_.animated() ? 1 : 0;
     request.pose_matters = pose_matters(scene_) ? 1 : 0;
-    request.attenuated = attenuated ? 1 : 0;
-    request.lights_scatter = lights_scatter() ? 1 : 0;
     request.transmittance = scene_.quality.transmittance;
     request.detail = scene_.quality.detail;
     current_ = &planned;
@@ -340,13 +451,13 @@ void brume_host_t::need_camera(uint32_t needs, const std::string &reason)
     camera_reason_ += (camera_reason_.empty() ? "" : "; ") + reason;
 }
 
-brume_plugin_image brume_host_t::create_image(int32_t width, int32_t height, int32_t channels)
+brume_plugin_image brume_host_t::create_image(const char *label, int32_t width, int32_t height, int32_t channels)
 {
     int32_t largest = context_->backend->largest_size();
     if (width < 1 || height < 1 || width > largest || height > largest || (channels != 1 && channels != 2 && channels != 4))
-        throw Error(BRUME_ERROR_ARGUMENT, std::to_string(width) + " x " + std::to_string(height) + " x " +
-                                              std::to_string(channels) + "; expected sides from 1 to " +
-                                              std::to_string(largest) + " and 1, 2 or 4 channels");
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("image {}: {} x {} x {}; expected sides from 1 to {} and 1, 2 or 4 channels", label ? label : "?",
+                                width, height, channels, largest));
     if (rehearsal_)
         return image_of_rehearsal();
     images_.push_back(context_->backend->create_image(width, height, channels, BRUME_PIXEL_F32));
@@ -354,36 +465,36 @@ brume_plugin_image brume_host_t::create_image(int32_t width, int32_t height, int
     return images_.back().get();
 }
 
-brume_program brume_host_t::compile(const char *name, const char *source, const char *defines)
+brume_pass brume_host_t::create_pass(const brume_pass_desc &desc)
 {
+    PassLayout layout = layout_of(desc);
     if (rehearsal_)
-        return program_of_rehearsal();
-    programs_.push_back(context_->backend->compile(name, source, defines));
-    return programs_.back().get();
+        return pass_of_rehearsal();
+    passes_.push_back(context_->backend->create_pass(desc, std::move(layout)));
+    pass_owners_.push_back(current_ ? current_->effect : nullptr);
+    return passes_.back().get();
 }
 
-int brume_host_t::entry_index(const char *name) const
+brume_status brume_host_t::run(brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width,
+                               int32_t height, void *user)
 {
-    const std::string &owner = current_ ? current_->effect->name : host_name;
-    for (size_t i = 0; i < entries_.size() && name; ++i)
-        if (entries_[i].runs && entries_[i].name == name && entries_[i].effect == owner)
-            return int(i);
-    throw Error(BRUME_ERROR_PLUGIN,
-                std::string("pass \"") + (name ? name : "NULL") + "\" is not among the running entries of the plan");
+    if (!pass || (!images && !pass->layout.slots.empty()) || (!constants && pass->layout.constant_size > 0))
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("run: {} is NULL", !pass ? "pass" : !images ? "images" : "constants"));
+    if (width < 1 || height < 1)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("pass \"{}\": its grid is {} x {}; expected at least 1 x 1",
+                                                      pass->layout.name, width, height));
+    timer_->mark(pass->entry);
+    return context_->backend->run(*pass, images, constants, width, height, content_.scene(), user);
 }
 
-void brume_host_t::run(const brume_plugin_pass &pass)
+void brume_host_t::publish(const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count,
+                           uint64_t revision)
 {
-    timer_->mark(entry_index(pass.name));
-    context_->backend->run(pass, *current_scene_);
-}
-
-brume_status brume_host_t::rows(const char *name, int32_t count, int32_t grain, brume_rows_function function, void *user)
-{
-    if (!function || count < 0 || grain < 1)
-        throw Error(BRUME_ERROR_ARGUMENT, "rows: function NULL, count below 0 or grain below 1");
-    timer_->mark(entry_index(name));
-    return context_->backend->rows(count, grain, function, user);
+    if (!product || (!images && image_count > 0))
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("publish: {} is NULL", product ? "images" : "product"));
+    if (current_ && !is_made_by(*current_->effect, product))
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("publish: {} is not among what the effect's table says it makes", product));
+    products_.publish(product, images, image_count, count, revision);
 }
 
 brume_plugin_image brume_host_t::upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels)
@@ -410,9 +521,4 @@ brume_plugin_image brume_host_t::upload(uint32_t slot, int32_t channels, const f
     image.data = data.values.data();
     data.image = context_->backend->import(image, channels);
     return data.image.get();
-}
-
-brume_plugin_pixels brume_host_t::pixels(brume_plugin_image image)
-{
-    return context_->backend->pixels(*image);
 }

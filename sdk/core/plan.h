@@ -4,11 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "core/content.h"
 #include "core/context.h"
+#include "core/format.h"
+#include "core/host_products.h"
+#include "core/layers.h"
 #include "core/offer.h"
-#include "core/scene_images.h"
-#include "core/view.h"
+#include "core/products.h"
 #include "core/scene.h"
+#include "core/structure.h"
 
 namespace brume {
 
@@ -23,13 +27,21 @@ struct PlanEntry {
 // One effect's part of a plan.
 struct PlannedEffect {
     const Effect *effect = nullptr;
+    bool named = false;  // by the scene
     std::vector<double> parameters{};
     void *state = nullptr;
     bool runs = false;
     std::vector<Offer> offers{};
+
+    // Of its table's layers, their places among the format's; of its `uses`, the products.
+    std::vector<int> layer_places{};
+    std::vector<const Products::Product *> uses{};
+    // As they are in the frame at hand.
+    std::vector<brume_plugin_layer> layers{};
+    std::vector<brume_plugin_product> products{};
 };
 
-// Rehearsals are planned for their entries and offers: they hold no images or programs and cannot be executed.
+// Rehearsals are planned for their entries and offers: they hold no images or passes and cannot be executed.
 enum class Purpose { execution, rehearsal };
 
 }  // namespace brume
@@ -37,19 +49,21 @@ enum class Purpose { execution, rehearsal };
 // What must be done for one scene and one image format. It is also the host that effects talk to.
 struct brume_host_t {
 public:
-    brume_host_t(std::shared_ptr<brume::Context> context, brume::Scene scene, const brume_format &format,
+    brume_host_t(std::shared_ptr<brume::Context> context, brume::Scene scene, const brume::Format &format,
                  brume::Purpose purpose = brume::Purpose::execution);
     ~brume_host_t();
     brume_host_t(const brume_host_t &) = delete;
     brume_host_t &operator=(const brume_host_t &) = delete;
 
+    // Another scene of the same structure from the next frame on; throws Error(BRUME_ERROR_FORMAT) where it has another.
+    void update(const brume::Scene &scene, const brume::Format *format);
     void execute(const brume_frame &frame);
 
     const std::vector<brume::PlanEntry> &entries() const { return entries_; }
     const std::vector<brume::PlannedEffect> &effects() const { return effects_; }
     // By the offers that the parameters are; < 0 where an effect's are none.
     double predicted_error() const;
-    bool does_nothing() const;
+    bool does_nothing() const { return running_.empty(); }
     uint32_t camera_needs() const { return camera_needs_; }
     const std::string &camera_reason() const { return camera_reason_; }
     uint64_t image_bytes() const { return image_bytes_; }
@@ -62,12 +76,13 @@ public:
     brume_status fail(brume_status status, const char *message);
     void add_entry(const brume_plugin_entry &entry);
     void need_camera(uint32_t needs, const std::string &reason);
-    brume_plugin_image create_image(int32_t width, int32_t height, int32_t channels);
-    brume_program compile(const char *name, const char *source, const char *defines);
-    void run(const brume_plugin_pass &pass);
-    brume_status rows(const char *name, int32_t count, int32_t grain, brume_rows_function function, void *user);
-    brume_plugin_pixels pixels(brume_plugin_image image);
+    brume_plugin_image create_image(const char *label, int32_t width, int32_t height, int32_t channels);
+    brume_pass create_pass(const brume_pass_desc &desc);
+    uint32_t made(const std::string &product) const;
+    brume_status run(brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
+                     void *user);
     brume_plugin_image upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels);
+    void publish(const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count, uint64_t revision);
 
     // Logged as a warning where the device is Mesa's software GL, once per plan.
     void warn_on_software_gl(const std::string &message);
@@ -79,42 +94,47 @@ private:
         std::shared_ptr<brume::Image> image;
     };
 
-    void plan_content(const brume::View &view, brume_plugin_scene &scene);
-    void evaluate_content(double frame, const brume::View &view, brume_plugin_scene &scene);
+    void choose_effects();
+    void order_effects();
+    void set_parameters();
     void plan_effects();
-    void destroy_states() noexcept;
-    void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene, bool attenuated);
+    bool lacks_layer(brume::PlannedEffect &planned);
+    void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene);
     void take_offers(brume::PlannedEffect &planned, brume_plugin_request request);
-    int64_t run_effects(const brume_frame &frame, const brume_plugin_scene &scene);
-    void begin_extras(const brume_frame &frame, std::vector<std::shared_ptr<brume::Image>> &extras, brume_plugin_frame &seen);
-    bool lights_scatter() const;
+    void plan_host_products(const brume_plugin_scene &scene);
+    void check_outputs() const;
+    void bind_passes();
+    void release() noexcept;
+    void destroy_states() noexcept;
+    bool is_made_by(const brume::Effect &effect, const std::string &product) const;
+
+    int64_t run_effects(const brume_frame &frame);
+    void run_effect(brume::PlannedEffect &planned, brume_plugin_frame &seen);
     int64_t copy_frame(const brume_frame &frame);
     void check_frame(const brume_frame &frame) const;
-    int entry_index(const char *name) const;
     [[noreturn]] void effect_failed(const brume::Effect &effect, const char *callback, brume_status status) const;
 
     std::shared_ptr<brume::Context> context_;
     brume::Scene scene_;
-    brume_format format_;
+    brume::Format format_;
+    brume::Structure structure_;
     std::vector<brume::PlannedEffect> effects_;
+    std::vector<brume::PlannedEffect *> running_;
     std::vector<brume::PlanEntry> entries_;
     std::vector<std::shared_ptr<brume::Image>> images_;
-    std::vector<std::shared_ptr<brume::Program>> programs_;
-    std::shared_ptr<brume::Image> between_[2];  // what one effect hands to the next
+    std::vector<std::shared_ptr<brume::Pass>> passes_;
+    std::vector<const brume::Effect *> pass_owners_;  // of passes_; null: the host
+    std::shared_ptr<brume::Image> between_[2];         // what one effect hands to the next
     std::unique_ptr<brume::FrameTimer> timer_;
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;
     uint64_t image_bytes_ = 0;
-    std::vector<brume_plugin_light> lights_;  // of the current frame
-    std::vector<brume_plugin_gaussian> gaussians_;
-    std::vector<std::array<float, 3>> environment_;
-    double content_frame_ = 0;  // that of `revision_`
-    uint64_t revision_ = 0;
-    brume::SceneImages scene_images_;
+    brume::Content content_;
+    brume::FrameLayers layers_;
+    brume::Products products_;
+    brume::HostProducts host_products_;
     std::map<std::pair<const brume::PlannedEffect *, uint32_t>, Data> data_;  // by effect (the host: null) and slot
-    std::vector<brume_plugin_image> light_airlight_;
     const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
-    const brume_plugin_scene *current_scene_ = nullptr;
     std::string failure_;
     bool warned_ = false;
     const bool rehearsal_;

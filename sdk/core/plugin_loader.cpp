@@ -18,6 +18,7 @@ namespace {
 
 constexpr uint32_t largest_struct = 1024;
 constexpr uint32_t most_parameters = 256;
+constexpr uint32_t most_of_others = 64;  // layers, products made, products used
 constexpr size_t longest_name = 63;
 constexpr size_t longest_text = 4095;
 constexpr double largest_integer = 9007199254740992.0;  // 2^53: beyond it a double skips integers
@@ -136,52 +137,108 @@ Parameter copy_parameter(const brume_parameter_info &info, const std::string &in
     return parameter;
 }
 
-std::vector<Parameter> copy_parameters(const brume_effect &table)
+// The elements of a table of the effect's, each as the struct that this library knows; take(info, "table[i]").
+template <class Info, class Take>
+void for_infos(const Info *first, uint32_t count, uint32_t most, const char *table, const Info &defaults, Take take)
 {
-    if (table.parameter_count > most_parameters)
-        refuse("parameter_count: {}; expected at most {}", table.parameter_count, most_parameters);
-    if (table.parameter_count > 0 && !table.parameters)
-        refuse("parameters: NULL; expected {} of them", table.parameter_count);
-
-    std::vector<Parameter> parameters;
-    const auto *entry = reinterpret_cast<const unsigned char *>(table.parameters);
+    if (count > most)
+        refuse("{}: {} of them; expected at most {}", table, count, most);
+    if (count > 0 && !first)
+        refuse("{}: NULL; expected {} of them", table, count);
+    const auto *entry = reinterpret_cast<const unsigned char *>(first);
     uint32_t stride = 0;
-    for (uint32_t i = 0; i < table.parameter_count; ++i, entry += stride) {
-        const std::string index = fmt::format("parameters[{}]", i);
-        const auto info = copy_sized<brume_parameter_info>(entry, BRUME_PARAMETER_INFO_INIT, index);
+    for (uint32_t i = 0; i < count; ++i, entry += stride) {
+        const std::string index = fmt::format("{}[{}]", table, i);
+        const auto info = copy_sized<Info>(entry, defaults, index);
         if (i == 0)
             stride = info.struct_size;
-        if (info.struct_size != stride || stride % alignof(brume_parameter_info) != 0)
-            refuse("{}.struct_size: {}; expected {}", index, info.struct_size, sizeof(brume_parameter_info));
-        Parameter parameter = copy_parameter(info, index);
-        for (const Parameter &earlier : parameters)
-            if (earlier.name == parameter.name)
-                refuse("{}.name: {}; another parameter has that name", index, in_quotes(parameter.name));
-        parameters.push_back(std::move(parameter));
+        if (info.struct_size != stride || stride % alignof(Info) != 0)
+            refuse("{}.struct_size: {}; expected {}", index, info.struct_size, sizeof(Info));
+        take(info, index);
     }
+}
+
+std::vector<Parameter> copy_parameters(const brume_effect &table)
+{
+    std::vector<Parameter> parameters;
+    for_infos(table.parameters, table.parameter_count, most_parameters, "parameters",
+              brume_parameter_info BRUME_PARAMETER_INFO_INIT, [&](const brume_parameter_info &info, const std::string &index) {
+                  Parameter parameter = copy_parameter(info, index);
+                  for (const Parameter &earlier : parameters)
+                      if (earlier.name == parameter.name)
+                          refuse("{}.name: {}; another parameter has that name", index, in_quotes(parameter.name));
+                  parameters.push_back(std::move(parameter));
+              });
     return parameters;
+}
+
+Layer copy_layer(const brume_layer_info &info, const std::string &index)
+{
+    constexpr uint32_t directions = BRUME_LAYER_INPUT | BRUME_LAYER_OUTPUT;
+    Layer layer{copy_name(info.name, index + ".name"), copy_text(info.help, index + ".help"), info.flags, info.channels};
+    const uint32_t direction = info.flags & directions;
+    if (direction != BRUME_LAYER_INPUT && direction != BRUME_LAYER_OUTPUT)
+        refuse("{}.flags: {:#x}; expected one of BRUME_LAYER_INPUT and BRUME_LAYER_OUTPUT", index, info.flags);
+    if (info.flags & ~(directions | BRUME_LAYER_NEEDED | BRUME_LAYER_OF_LIGHT))
+        refuse("{}.flags: {:#x}; expected BRUME_LAYER_... flags of this library", index, info.flags);
+    if (info.flags & BRUME_LAYER_NEEDED && direction != BRUME_LAYER_INPUT)
+        refuse("{}.flags: {:#x}; expected BRUME_LAYER_NEEDED of inputs only", index, info.flags);
+    if (info.channels != 1 && info.channels != 3)
+        refuse("{}.channels: {}; expected 1 or 3", index, info.channels);
+    return layer;
+}
+
+std::vector<Layer> copy_layers(const brume_effect &table)
+{
+    std::vector<Layer> layers;
+    for_infos(table.layers, table.layer_count, most_of_others, "layers", brume_layer_info BRUME_LAYER_INFO_INIT,
+              [&](const brume_layer_info &info, const std::string &index) {
+                  Layer layer = copy_layer(info, index);
+                  for (const Layer &earlier : layers)
+                      if (earlier.name == layer.name && ((earlier.flags ^ layer.flags) & BRUME_LAYER_INPUT) == 0)
+                          refuse("{}.name: {}; another layer has that name", index, in_quotes(layer.name));
+                  layers.push_back(std::move(layer));
+              });
+    return layers;
+}
+
+std::vector<std::string> copy_names(const char *const *names, uint32_t count, const char *table)
+{
+    if (count > most_of_others || (count > 0 && !names))
+        refuse("{}: {}; expected at most {}", table, names ? fmt::format("{} of them", count) : "NULL", most_of_others);
+    std::vector<std::string> copies;
+    for (uint32_t i = 0; i < count; ++i) {
+        copies.push_back(copy_name(names[i], fmt::format("{}[{}]", table, i)));
+        if (std::find(copies.begin(), copies.end() - 1, copies.back()) != copies.end() - 1)
+            refuse("{}[{}]: {} is there twice", table, i, in_quotes(copies.back()));
+    }
+    return copies;
 }
 
 void copy_table(const brume_effect *source, Effect &effect)
 {
+    // Before all else: what lies behind it is another struct in another ABI.
+    uint32_t head[2] = {};
+    std::memcpy(head, source, sizeof head);
+    if (head[0] >= sizeof head && head[0] <= largest_struct && head[1] != BRUME_PLUGIN_ABI)
+        refuse("made for plugin ABI {}; this library knows ABI {}", head[1], BRUME_PLUGIN_ABI);
     const auto table = copy_sized<brume_effect>(source, brume_effect{}, "effect");
     if (table.abi != BRUME_PLUGIN_ABI)
-        refuse("made for plugin ABI {}; this library has ABI {}", table.abi, BRUME_PLUGIN_ABI);
+        refuse("made for plugin ABI {}; this library knows ABI {}", table.abi, BRUME_PLUGIN_ABI);
     effect.name = copy_name(table.name, "effect.name");
     effect.help = copy_text(table.help, "effect.help");
     if (table.thread_safety > BRUME_THREADS_SAFE)
         refuse("effect.thread_safety: {}; expected a BRUME_THREADS_... of this library", table.thread_safety);
     if (table.wanted > BRUME_WANTED_WITH_LIGHTS)
         refuse("effect.wanted: {}; expected a BRUME_WANTED_... of this library", table.wanted);
-    if (table.outputs & ~known_outputs)
-        refuse("effect.outputs: {:#x}; expected BRUME_OUTPUT_... flags of this library", table.outputs);
-    if (table.attenuates > 1)
-        refuse("effect.attenuates: {}; expected 0 or 1", table.attenuates);
     if (!table.plan || !table.execute || !table.destroy)
         refuse("effect.{}: NULL; expected a function", !table.plan ? "plan" : !table.execute ? "execute" : "destroy");
     effect.order = table.order;
     effect.wanted = table.wanted;
     effect.parameters = copy_parameters(table);
+    effect.layers = copy_layers(table);
+    effect.makes = copy_names(table.makes, table.make_count, "makes");
+    effect.uses = copy_names(table.uses, table.use_count, "uses");
     effect.table = source;
     effect.offer = table.offer;
 }

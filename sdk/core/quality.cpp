@@ -55,7 +55,7 @@ Scene with_offer(Scene scene, const Effect &effect, const Offer &offer)
     return scene;
 }
 
-Option rehearsed(const std::shared_ptr<Context> &context, const Scene &scene, const brume_format &format,
+Option rehearsed(const std::shared_ptr<Context> &context, const Scene &scene, const Format &format,
                  const Effect &effect, const Offer &offer)
 {
     const brume_host_t rehearsal(context, with_offer(scene, effect, offer), format, Purpose::rehearsal);
@@ -116,7 +116,7 @@ std::string described(const Effect &effect, const Option &option)
 
 }  // namespace
 
-Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &scene, const brume_format &format)
+Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &scene, const Format &format)
 {
     const Quality &quality = scene.quality;
     if (!quality.asked())

@@ -12,6 +12,6 @@ struct Chosen {
 };
 
 // Plans a scene with those of its effects' offers that the quality it asks for needs. Parameters that the scene sets stay.
-Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &scene, const brume_format &format);
+Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &scene, const Format &format);
 
 }  // namespace brume

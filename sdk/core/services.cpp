@@ -52,31 +52,24 @@ const brume_services &services()
             return guarded(host, [&] {
                 if (!out)
                     throw Error(BRUME_ERROR_ARGUMENT, "create_image: out is NULL");
-                try {
-                    *out = host->create_image(width, height, channels);
-                } catch (const Error &error) {
-                    throw Error(error.status(), "image " + std::string(label ? label : "?") + ": " + error.what());
-                }
+                *out = host->create_image(label, width, height, channels);
             });
         },
-        [](brume_host host, const char *name, const char *source, const char *defines, brume_program *out) {
+        [](brume_host host, const brume_pass_desc *desc, brume_pass *out) {
             return guarded(host, [&] {
-                if (!name || !source || !out)
-                    throw Error(BRUME_ERROR_ARGUMENT, "compile: name, source or out is NULL");
-                *out = host->compile(name, source, defines ? defines : "");
+                expect_struct(desc, "create_pass");
+                if (!out)
+                    throw Error(BRUME_ERROR_ARGUMENT, "create_pass: out is NULL");
+                *out = host->create_pass(*desc);
             });
         },
-        [](brume_host host, const brume_plugin_pass *pass) {
-            return guarded(host, [&] {
-                expect_struct(pass, "run");
-                host->run(*pass);
-            });
-        },
-        [](brume_host host, const char *name, int32_t count, int32_t grain, brume_rows_function function, void *user) {
+        [](brume_host host, const char *product) { return host && product ? host->made(product) : BRUME_MADE_NOWHERE; },
+        [](brume_host host, brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width,
+           int32_t height, void *user) {
             brume_status result = BRUME_OK;
             brume_status status = guarded(host, [&] {
                 try {
-                    result = host->rows(name, count, grain, function, user);
+                    result = host->run(pass, images, constants, width, height, user);
                 } catch (const Error &) {
                     throw;
                 } catch (const std::bad_alloc &) {
@@ -89,19 +82,16 @@ const brume_services &services()
             });
             return status != BRUME_OK ? status : result;
         },
-        [](brume_host host, brume_plugin_image image, brume_plugin_pixels *out) {
-            return guarded(host, [&] {
-                if (!image || !out)
-                    throw Error(BRUME_ERROR_ARGUMENT, "pixels: image or out is NULL");
-                *out = host->pixels(image);
-            });
-        },
         [](brume_host host, uint32_t slot, int32_t channels, const float *values, uint64_t texels, brume_plugin_image *out) {
             return guarded(host, [&] {
                 if (!out || (!values && texels > 0))
                     throw Error(BRUME_ERROR_ARGUMENT, "upload: values or out is NULL");
                 *out = host->upload(slot, channels, values, texels);
             });
+        },
+        [](brume_host host, const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count,
+           uint64_t revision) {
+            return guarded(host, [&] { host->publish(product, images, image_count, count, revision); });
         },
     };
     return table;

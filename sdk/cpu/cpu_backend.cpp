@@ -82,6 +82,12 @@ private:
     uint64_t used_ = 0, most_used_ = 0, idle_bytes_ = 0;
 };
 
+struct CpuPass : Pass {
+    brume_rows_function function = nullptr;
+    int32_t grain = 1;
+    std::vector<brume_plugin_pixels> pixels;  // of the run at hand
+};
+
 class CpuTimer : public FrameTimer {
 public:
     void begin() override { marks_.clear(); }
@@ -124,9 +130,17 @@ public:
         return pool_->take(width, height, channels);
     }
 
-    std::shared_ptr<Program> compile(const std::string &, const std::string &, const std::string &) override
+    std::shared_ptr<Pass> create_pass(const brume_pass_desc &desc, PassLayout layout) override
     {
-        throw Error(BRUME_ERROR_UNSUPPORTED, "compile: the CPU backend runs no shader programs");
+        if (!desc.rows)
+            throw Error(BRUME_ERROR_UNSUPPORTED, "pass \"" + layout.name +
+                                                     "\" has no function for rows; the CPU backend needs one, OpenGL runs its shader");
+        auto pass = std::make_shared<CpuPass>();
+        pass->layout = std::move(layout);
+        pass->function = desc.rows;
+        pass->grain = desc.grain;
+        pass->pixels.resize(pass->layout.slots.size());
+        return pass;
     }
 
     std::unique_ptr<FrameTimer> create_timer() override { return std::make_unique<CpuTimer>(); }
@@ -195,23 +209,25 @@ public:
 
     void flush() override {}
 
-    void run(const brume_plugin_pass &, const brume_plugin_scene &) override
+    brume_status run(Pass &described, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
+                     const brume_plugin_scene &scene, void *user) override
     {
-        throw Error(BRUME_ERROR_UNSUPPORTED, "run: the CPU backend runs no shader passes");
-    }
-
-    brume_status rows(int32_t count, int32_t grain, brume_rows_function function, void *user) override
-    {
+        auto &pass = static_cast<CpuPass &>(described);
+        for (size_t i = 0; i < pass.pixels.size(); ++i)
+            pass.pixels[i] = images[i] ? pixels(*images[i]) : brume_plugin_pixels{};
+        const brume_plugin_rows call{sizeof call,         width, height,   uint32_t(pass.pixels.size()),
+                                     pass.pixels.data(), constants, &scene, user};
         // Blocks are fixed by grain alone and never by the number of threads, so an effect that sums over its block
         // gives the same bits on any machine.
         std::atomic<brume_status> status = BRUME_OK;
-        grain = std::min(grain, std::max(count, 1));
-        int32_t blocks = count / grain + (count % grain != 0);
+        const int32_t grain = std::min(pass.grain, height);
+        const int32_t blocks = height / grain + (height % grain != 0);
         arena_.execute([&] {
             oneapi::tbb::parallel_for(0, blocks, [&](int32_t block) {
                 if (status != BRUME_OK)
                     return;
-                brume_status result = function(user, block * grain, std::min<int64_t>(count, (int64_t(block) + 1) * grain));
+                const auto last = int32_t(std::min<int64_t>(height, (int64_t(block) + 1) * grain));
+                brume_status result = pass.function(&call, block * grain, last);
                 brume_status none = BRUME_OK;
                 if (result != BRUME_OK)
                     status.compare_exchange_strong(none, result);
@@ -220,13 +236,13 @@ public:
         return status;
     }
 
-    brume_plugin_pixels pixels(Image &image) override
+private:
+    static brume_plugin_pixels pixels(Image &image)
     {
         auto &cpu = static_cast<CpuImage &>(image);
         return {cpu.data, cpu.row_stride, cpu.width, cpu.height, cpu.channels, 0};
     }
 
-private:
     // An arena of more than the process may use would only make TBB warn.
     static uint32_t most_threads() { return uint32_t(oneapi::tbb::info::default_concurrency()); }
 

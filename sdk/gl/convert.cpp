@@ -1,5 +1,7 @@
 #include "gl/convert.h"
 
+#include <cstddef>
+
 namespace brume::gl {
 namespace {
 
@@ -40,6 +42,28 @@ void main()
 }
 )";
 
+struct Constants {
+    int32_t spread, round_to_half;
+};
+
+PassLayout layout()
+{
+    static constexpr brume_slot slots[] = {{"source", BRUME_ACCESS_FETCH, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
+    static constexpr brume_constant constants[] = {
+        // GLSL's bool is set by an integer.
+        {"spread", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, spread)},
+        {"round_to_half", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, round_to_half)}};
+    brume_pass_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.name = "convert";
+    desc.slots = slots;
+    desc.slot_count = 2;
+    desc.constants = constants;
+    desc.constant_count = 2;
+    desc.constant_size = sizeof(Constants);
+    return layout_of(desc);
+}
+
 }  // namespace
 
 bool is_half(GLenum format)
@@ -47,7 +71,10 @@ bool is_half(GLenum format)
     return format == GL_RGBA16F || format == GL_RG16F || format == GL_R16F;
 }
 
-Converter::Converter(std::shared_ptr<Disposal> disposal) : program_("brume/convert", source, "", std::move(disposal)) {}
+Converter::Converter(std::shared_ptr<Disposal> disposal) 
+    : pass_(std::make_shared<GlProgram>("brume/convert", source, "", std::move(disposal)), layout())
+{
+}
 
 void Converter::convert(const GlImage &from, const GlImage &to, const Samplers &samplers, StateGuard &guard)
 {
@@ -61,28 +88,10 @@ void Converter::store(const GlImage &from, const GlImage &to, const Samplers &sa
 
 void Converter::run(const GlImage &from, const GlImage &to, bool round_to_half, const Samplers &samplers, StateGuard &guard)
 {
-    // Bindings are not const because other passes write through them; this one reads `from`.
-    const brume_plugin_binding bindings[] = {
-        {"source", const_cast<GlImage *>(&from), BRUME_ACCESS_FETCH, 0},
-        {"target", const_cast<GlImage *>(&to), BRUME_ACCESS_WRITE, 0},
-    };
-    const int32_t spread = from.channels == 1 && to.channels == 4;
-    const int32_t rounded = round_to_half;
-    const brume_plugin_uniform uniforms[] = {
-        {"spread", BRUME_UNIFORM_INT, 1, 1, 0, &spread},
-        {"round_to_half", BRUME_UNIFORM_INT, 1, 1, 0, &rounded},
-    };
-    brume_plugin_pass pass{};
-    pass.struct_size = sizeof pass;
-    pass.name = "convert";
-    pass.program = &program_;
-    pass.bindings = bindings;
-    pass.binding_count = 2;
-    pass.uniforms = uniforms;
-    pass.uniform_count = 2;
-    pass.width = to.width;
-    pass.height = to.height;
-    run_pass(pass, brume_plugin_scene{}, samplers, guard);
+    // Slots are not const because other passes write through them; this one reads `from`.
+    const brume_plugin_image images[] = {const_cast<GlImage *>(&from), const_cast<GlImage *>(&to)};
+    const Constants constants{from.channels == 1 && to.channels == 4, round_to_half};
+    pass_.run(images, &constants, to.width, to.height, brume_plugin_scene{}, samplers, guard);
 }
 
 }  // namespace brume::gl

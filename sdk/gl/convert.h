@@ -3,7 +3,6 @@
 
 #include "gl/image.h"
 #include "gl/pass.h"
-#include "gl/program.h"
 
 namespace brume::gl {
 
@@ -20,7 +19,7 @@ public:
 private:
     void run(const GlImage &from, const GlImage &to, bool round_to_half, const Samplers &samplers, StateGuard &guard);
 
-    GlProgram program_;
+    GlPass pass_;
 };
 
 bool is_half(GLenum format);

@@ -44,8 +44,7 @@ public:
     int32_t largest_size() const override { return pool_->largest_size(); }
 
     std::shared_ptr<Image> create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel) override;
-    std::shared_ptr<Program> compile(const std::string &name, const std::string &source,
-                                     const std::string &defines) override;
+    std::shared_ptr<Pass> create_pass(const brume_pass_desc &desc, PassLayout layout) override;
     std::unique_ptr<FrameTimer> create_timer() override { return std::make_unique<GlTimer>(disposal_); }
 
     void check(const brume_image &image, const char *what, bool writable) override;
@@ -56,9 +55,8 @@ public:
     int64_t copy(const brume_image &from, const brume_image &to) override;
     void flush() override;
 
-    void run(const brume_plugin_pass &pass, const brume_plugin_scene &scene) override;
-    brume_status rows(int32_t count, int32_t grain, brume_rows_function function, void *user) override;
-    brume_plugin_pixels pixels(Image &image) override;
+    brume_status run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
+                     const brume_plugin_scene &scene, void *user) override;
 
 private:
     bool stores_round_to_nearest();
@@ -111,13 +109,16 @@ std::shared_ptr<Image> GlBackend::create_image(int32_t width, int32_t height, in
     return image;
 }
 
-std::shared_ptr<Program> GlBackend::compile(const std::string &name, const std::string &source, const std::string &defines)
+std::shared_ptr<Pass> GlBackend::create_pass(const brume_pass_desc &desc, PassLayout layout)
 {
+    if (!desc.source)
+        throw Error(BRUME_ERROR_UNSUPPORTED, "pass \"" + layout.name + "\" has no shader; it runs on the CPU backend only");
     device_.guard();
-    std::shared_ptr<GlProgram> &program = programs_[{name, source, defines}];
+    const std::string name = desc.source_name ? desc.source_name : desc.name;
+    std::shared_ptr<GlProgram> &program = programs_[{name, desc.source, desc.defines ? desc.defines : ""}];
     if (!program)
-        program = std::make_shared<GlProgram>(name, source, defines, disposal_);
-    return program;
+        program = std::make_shared<GlProgram>(name, desc.source, desc.defines ? desc.defines : "", disposal_);
+    return std::make_shared<GlPass>(program, std::move(layout));
 }
 
 void GlBackend::check(const brume_image &image, const char *what, bool writable)
@@ -219,19 +220,11 @@ void GlBackend::flush()
     disposal_->collect();
 }
 
-void GlBackend::run(const brume_plugin_pass &pass, const brume_plugin_scene &scene)
+brume_status GlBackend::run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
+                            const brume_plugin_scene &scene, void *)
 {
-    run_pass(pass, scene, samplers_, device_.guard());
-}
-
-brume_status GlBackend::rows(int32_t, int32_t, brume_rows_function, void *)
-{
-    throw Error(BRUME_ERROR_INTERNAL, "rows: not available on OpenGL, where effects run passes");
-}
-
-brume_plugin_pixels GlBackend::pixels(Image &)
-{
-    throw Error(BRUME_ERROR_INTERNAL, "pixels: not available on OpenGL, where images are textures");
+    static_cast<GlPass &>(pass).run(images, constants, width, height, scene, samplers_, device_.guard());
+    return BRUME_OK;
 }
 
 // Asks the driver by storing floats between halves: ties both ways, the largest, and subnormals.

@@ -1,13 +1,12 @@
 #include "gl/pass.h"
 
 #include <algorithm>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <cstring>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "gl/image.h"
-#include "gl/program.h"
 
 namespace brume::gl {
 namespace {
@@ -17,14 +16,14 @@ constexpr int32_t group_side = 8;  // local_size in prelude.glsl
 // Names the pass in captures and debug logs.
 class DebugGroup {
 public:
-    explicit DebugGroup(const std::string &name)
+    explicit DebugGroup(const std::string &label)
     {
         GLint depth = 0, most = 0;
         glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &depth);
         glGetIntegerv(GL_MAX_DEBUG_GROUP_STACK_DEPTH, &most);
         pushed_ = depth < most;
         if (pushed_)
-            glPushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, 0, -1, name.substr(0, 200).c_str());
+            glPushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, 0, -1, label.c_str());
     }
     ~DebugGroup()
     {
@@ -38,130 +37,31 @@ private:
     bool pushed_;
 };
 
-class Dispatch {
-public:
-    Dispatch(const brume_plugin_pass &pass, const Samplers &samplers, StateGuard &guard)
-        : pass_(pass), samplers_(samplers), guard_(guard), name_("pass \"" + std::string(pass.name ? pass.name : "") + "\"")
-    {
+// Reads give (0, 0, 0, 1), writes are dropped; what the host has on that unit is not seen.
+void bind_nothing(GLuint unit, bool write, const Samplers &samplers, StateGuard &guard)
+{
+    if (write) {
+        guard.image_unit(unit);
+        glBindImageTexture(unit, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+    } else {
+        guard.texture_unit(unit);
+        glActiveTexture(GL_TEXTURE0 + unit);  // glBindTextureUnit would clear the unit's other targets too
+        glBindTexture(GL_TEXTURE_2D, 0);
+        glBindSampler(unit, samplers.nearest);
     }
+}
 
-    void run(const brume_plugin_scene &scene)
-    {
-        check();
-        auto &program = static_cast<GlProgram &>(*pass_.program);
-        const DebugGroup group("brume: " + name_);
-        set_uniforms(program, scene);
-        bind(program);
-        guard_.program();
-        glUseProgram(program.id());
-        glDispatchCompute(GLuint((pass_.width + group_side - 1) / group_side),
-                          GLuint((pass_.height + group_side - 1) / group_side), 1);
-        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+void bind(const GlImage &image, GLuint unit, uint32_t access, const Samplers &samplers, StateGuard &guard)
+{
+    if (access == BRUME_ACCESS_WRITE) {
+        guard.image_unit(unit);
+        glBindImageTexture(unit, image.texture, 0, GL_FALSE, 0, GL_WRITE_ONLY, image.format);
+    } else {
+        guard.texture_unit(unit);
+        glBindTextureUnit(unit, image.texture);
+        glBindSampler(unit, access == BRUME_ACCESS_LINEAR ? samplers.linear : samplers.nearest);
     }
-
-private:
-    [[noreturn]] void refuse(const std::string &problem) const { throw Error(BRUME_ERROR_ARGUMENT, name_ + ": " + problem); }
-
-    void check() const
-    {
-        if (!pass_.name)
-            refuse("its name is NULL");
-        if (!pass_.program)
-            refuse("its program is NULL");
-        if (pass_.width < 1 || pass_.height < 1)
-            refuse("its size is " + std::to_string(pass_.width) + " x " + std::to_string(pass_.height) +
-                   "; expected at least 1 x 1");
-        if (pass_.binding_count > 0 && !pass_.bindings)
-            refuse(std::to_string(pass_.binding_count) + " bindings, but bindings is NULL");
-        if (pass_.uniform_count > 0 && !pass_.uniforms)
-            refuse(std::to_string(pass_.uniform_count) + " uniforms, but uniforms is NULL");
-    }
-
-    void set_uniforms(GlProgram &program, const brume_plugin_scene &scene) const
-    {
-        for (uint32_t i = 0; i < pass_.uniform_count; ++i) {
-            const brume_plugin_uniform &uniform = pass_.uniforms[i];
-            const std::string item = "uniforms[" + std::to_string(i) + "]";
-            if (!uniform.name)
-                refuse(item + ": its name is NULL");
-            const std::string label = item + " \"" + uniform.name + "\"";
-            if (std::string_view(uniform.name).starts_with("brume_"))
-                refuse(label + ": names that start with brume_ are set by the host");
-            if (uniform.type != BRUME_UNIFORM_FLOAT && uniform.type != BRUME_UNIFORM_INT)
-                refuse(label + ": type " + std::to_string(uniform.type) + "; expected BRUME_UNIFORM_FLOAT or _INT");
-            if (uniform.components < 1 || uniform.components > 4)
-                refuse(label + ": " + std::to_string(uniform.components) + " components; expected 1 to 4");
-            if (uniform.count < 1)
-                refuse(label + ": count 0; expected at least 1");
-            if (!uniform.data)
-                refuse(label + ": data is NULL");
-            program.set(uniform.name, uniform.type, uniform.components, uniform.count, uniform.data);
-        }
-        program.set_scene(scene);
-        program.set_grid(pass_.width, pass_.height);
-    }
-
-    void bind(const GlProgram &program) const
-    {
-        std::vector<const GlProgram::Slot *> bound;
-        for (uint32_t i = 0; i < pass_.binding_count; ++i) {
-            const brume_plugin_binding &binding = pass_.bindings[i];
-            const std::string item = "bindings[" + std::to_string(i) + "]";
-            if (!binding.name)
-                refuse(item + ": its name is NULL");
-            const std::string label = item + " \"" + binding.name + "\"";
-            if (!binding.image)
-                refuse(label + ": its image is NULL");
-            if (binding.access > BRUME_ACCESS_WRITE)
-                refuse(label + ": access " + std::to_string(binding.access) +
-                       "; expected BRUME_ACCESS_FETCH, _LINEAR or _WRITE");
-            const auto slot = program.slots().find(std::string_view(binding.name));
-            if (slot == program.slots().end())
-                continue;
-            const bool write = binding.access == BRUME_ACCESS_WRITE;
-            if (write != slot->second.image)
-                refuse(label + (write ? ": bound for writing; the program has a sampler2D there"
-                                      : ": bound for reading; the program has an image2D there"));
-            bind(slot->second, static_cast<const GlImage &>(*binding.image), binding.access);
-            bound.push_back(&slot->second);
-        }
-        // What an effect leaves out must not be what the host has on that unit.
-        for (const auto &[name, slot] : program.slots())
-            if (std::find(bound.begin(), bound.end(), &slot) == bound.end())
-                bind_nothing(slot);
-    }
-
-    // Reads give (0, 0, 0, 1), writes are dropped.
-    void bind_nothing(const GlProgram::Slot &slot) const
-    {
-        if (slot.image) {
-            guard_.image_unit(slot.unit);
-            glBindImageTexture(slot.unit, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-        } else {
-            guard_.texture_unit(slot.unit);
-            glActiveTexture(GL_TEXTURE0 + slot.unit);  // glBindTextureUnit would clear the unit's other targets too
-            glBindTexture(GL_TEXTURE_2D, 0);
-            glBindSampler(slot.unit, samplers_.nearest);
-        }
-    }
-
-    void bind(const GlProgram::Slot &slot, const GlImage &image, uint32_t access) const
-    {
-        if (slot.image) {
-            guard_.image_unit(slot.unit);
-            glBindImageTexture(slot.unit, image.texture, 0, GL_FALSE, 0, GL_WRITE_ONLY, image.format);
-        } else {
-            guard_.texture_unit(slot.unit);
-            glBindTextureUnit(slot.unit, image.texture);
-            glBindSampler(slot.unit, access == BRUME_ACCESS_LINEAR ? samplers_.linear : samplers_.nearest);
-        }
-    }
-
-    const brume_plugin_pass &pass_;
-    const Samplers &samplers_;
-    StateGuard &guard_;
-    const std::string name_;
-};
+}
 
 GLuint create_sampler(GLint filter)
 {
@@ -172,6 +72,13 @@ GLuint create_sampler(GLint filter)
     glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return sampler;
+}
+
+template <class... Arguments>
+[[noreturn]] void refuse(const GlProgram &program, fmt::format_string<Arguments...> format, Arguments &&...arguments)
+{
+    throw Error(BRUME_ERROR_ARGUMENT, fmt::format("program \"{}\": {}", program.name(),
+                                                  fmt::format(format, std::forward<Arguments>(arguments)...)));
 }
 
 }  // namespace
@@ -188,9 +95,70 @@ void Samplers::destroy()
     glDeleteSamplers(2, names);
 }
 
-void run_pass(const brume_plugin_pass &pass, const brume_plugin_scene &scene, const Samplers &samplers, StateGuard &guard)
+GlPass::GlPass(std::shared_ptr<GlProgram> program, PassLayout described)
+    : program_(std::move(program)), label_(fmt::format("brume: pass \"{}\"", described.name).substr(0, 200))
 {
-    Dispatch(pass, samplers, guard).run(scene);
+    layout = std::move(described);
+    find_slots();
+    find_constants();
+}
+
+void GlPass::find_slots()
+{
+    for (const auto &[name, declared] : program_->slots()) {
+        const auto found = std::find_if(layout.slots.begin(), layout.slots.end(), [&](auto &slot) { return slot.name == name; });
+        if (found == layout.slots.end())
+            refuse(*program_, "declares {} {}, which is not among the slots of pass \"{}\"",
+                   declared.image ? "image2D" : "sampler2D", name, layout.name);
+        const bool write = found->access == BRUME_ACCESS_WRITE;
+        if (write != declared.image)
+            refuse(*program_, "declares {} as {}; pass \"{}\" has a slot for {} there", name,
+                   declared.image ? "image2D" : "sampler2D", layout.name, write ? "writing" : "reading");
+        bindings_.push_back({size_t(found - layout.slots.begin()), declared.unit, found->access});
+    }
+}
+
+void GlPass::find_constants()
+{
+    for (const auto &[name, uniform] : program_->uniforms()) {
+        const auto found =
+            std::find_if(layout.constants.begin(), layout.constants.end(), [&](auto &constant) { return constant.name == name; });
+        if (found == layout.constants.end())
+            refuse(*program_, "declares {} {}, which is not among the constants of pass \"{}\"", type_text(uniform), name,
+                   layout.name);
+        if (!holds(uniform, found->type, found->components))
+            refuse(*program_, "declares {} as {}; pass \"{}\" has {} of {} components there", name, type_text(uniform), layout.name,
+                   found->type == BRUME_CONSTANT_FLOAT ? "floats" : "ints", found->components);
+        // Compilers shorten arrays to what is used.
+        GlProgram::Uniform set = uniform;
+        set.size = std::min(GLint(found->count), uniform.size);
+        constants_.push_back({set, found->offset, found->components * uint32_t(set.size) * 4});
+    }
+}
+
+void GlPass::set_constants(const void *constants)
+{
+    for (const Constant &constant : constants_)
+        program_->set(constant.uniform, static_cast<const char *>(constants) + constant.offset);
+}
+
+void GlPass::run(const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
+                 const brume_plugin_scene &scene, const Samplers &samplers, StateGuard &guard)
+{
+    const DebugGroup group(label_);
+    set_constants(constants);
+    program_->set_scene(scene);
+    program_->set_grid(width, height);
+    for (const Binding &binding : bindings_) {
+        if (const brume_plugin_image image = images[binding.slot])
+            bind(static_cast<const GlImage &>(*image), binding.unit, binding.access, samplers, guard);
+        else
+            bind_nothing(binding.unit, binding.access == BRUME_ACCESS_WRITE, samplers, guard);
+    }
+    guard.program();
+    glUseProgram(program_->id());
+    glDispatchCompute(GLuint((width + group_side - 1) / group_side), GLuint((height + group_side - 1) / group_side), 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace brume::gl

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/scene_constants.h"
 #include "gl/program_source.h"
 
 namespace brume::gl {
@@ -17,11 +18,11 @@ struct Type {
 };
 
 constexpr Type types[] = {
-    {GL_FLOAT, BRUME_UNIFORM_FLOAT, 1, "float"},     {GL_FLOAT_VEC2, BRUME_UNIFORM_FLOAT, 2, "vec2"},
-    {GL_FLOAT_VEC3, BRUME_UNIFORM_FLOAT, 3, "vec3"}, {GL_FLOAT_VEC4, BRUME_UNIFORM_FLOAT, 4, "vec4"},
-    {GL_INT, BRUME_UNIFORM_INT, 1, "int"},           {GL_INT_VEC2, BRUME_UNIFORM_INT, 2, "ivec2"},
-    {GL_INT_VEC3, BRUME_UNIFORM_INT, 3, "ivec3"},    {GL_INT_VEC4, BRUME_UNIFORM_INT, 4, "ivec4"},
-    {GL_BOOL, BRUME_UNIFORM_INT, 1, "bool"},
+    {GL_FLOAT, BRUME_CONSTANT_FLOAT, 1, "float"},     {GL_FLOAT_VEC2, BRUME_CONSTANT_FLOAT, 2, "vec2"},
+    {GL_FLOAT_VEC3, BRUME_CONSTANT_FLOAT, 3, "vec3"}, {GL_FLOAT_VEC4, BRUME_CONSTANT_FLOAT, 4, "vec4"},
+    {GL_INT, BRUME_CONSTANT_INT, 1, "int"},           {GL_INT_VEC2, BRUME_CONSTANT_INT, 2, "ivec2"},
+    {GL_INT_VEC3, BRUME_CONSTANT_INT, 3, "ivec3"},    {GL_INT_VEC4, BRUME_CONSTANT_INT, 4, "ivec4"},
+    {GL_BOOL, BRUME_CONSTANT_INT, 1, "bool"},
 };
 
 const Type *find_type(GLenum name)
@@ -115,7 +116,9 @@ void GlProgram::list_uniforms()
         glGetProgramResourceiv(id_, GL_UNIFORM, i, 3, asked, 3, nullptr, answer);
         const Uniform uniform{answer[0], GLenum(answer[1]), answer[2]};
 
-        if (find_type(uniform.type)) {
+        if (name.starts_with("brume_")) {
+            take_host_uniform(name, uniform);
+        } else if (find_type(uniform.type)) {
             uniforms_[name] = uniform;
         } else if ((uniform.type == GL_SAMPLER_2D || uniform.type == GL_IMAGE_2D) && uniform.size == 1) {
             const bool image = uniform.type == GL_IMAGE_2D;
@@ -130,19 +133,34 @@ void GlProgram::list_uniforms()
     }
 }
 
-void GlProgram::set(const char *name, uint32_t type, uint32_t components, uint32_t count, const void *data)
+// A misspelt one would stay zero, and nobody would know why the picture is black.
+void GlProgram::take_host_uniform(const std::string &name, const Uniform &uniform)
 {
-    const auto found = uniforms_.find(std::string_view(name));
-    if (found == uniforms_.end())
-        return;
-    const Uniform &uniform = found->second;
-    const Type &declared = *find_type(uniform.type);
-    if (declared.type != type || declared.components != components)
-        throw Error(BRUME_ERROR_ARGUMENT, "program \"" + name_ + "\": uniform " + name + " is " + declared.text +
-                                              "; the pass gives " + std::to_string(components) +
-                                              (type == BRUME_UNIFORM_FLOAT ? " float" : " int") + " components");
-    // Compilers shorten arrays to what is used.
-    const GLsizei n = std::min(GLsizei(count), GLsizei(uniform.size));
+    const auto member_of = [&](std::string_view prefix, const auto &members, std::vector<Member> &out) {
+        if (!std::string_view(name).starts_with(prefix))
+            return false;
+        for (const brume_constant &member : members)
+            if (name.substr(prefix.size()) == member.name && holds(uniform, member.type, member.components)) {
+                out.push_back({uniform, member.offset});
+                out.back().uniform.size = std::min(GLint(member.count), uniform.size);
+                return true;
+            }
+        return false;
+    };
+    if (name == "brume_grid" && uniform.type == GL_INT_VEC2)
+        grid_ = uniform;
+    else if (name == "brume_output_limit" && uniform.type == GL_FLOAT)
+        output_limit_ = uniform;
+    else if (!member_of("brume_medium.", medium_members, medium_members_) &&
+             !member_of("brume_camera.", camera_members, camera_members_))
+        throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\": uniform " + name +
+                                        " is none that the host sets; expected ivec2 brume_grid, Medium brume_medium, Camera "
+                                        "brume_camera, float brume_output_limit, or a name that does not begin with brume_");
+}
+
+void GlProgram::set(const Uniform &uniform, const void *data) const
+{
+    const GLsizei n = uniform.size;
     const auto *floats = static_cast<const GLfloat *>(data);
     const auto *ints = static_cast<const GLint *>(data);
     switch (uniform.type) {
@@ -174,51 +192,43 @@ void GlProgram::set(const char *name, uint32_t type, uint32_t components, uint32
     }
 }
 
-void GlProgram::set_grid(int32_t width, int32_t height)
+void GlProgram::set_grid(int32_t width, int32_t height) const
 {
-    const int32_t grid[2] = {width, height};
-    set("brume_grid", BRUME_UNIFORM_INT, 2, 1, grid);
+    const GLint grid[2] = {width, height};
+    if (grid_.location >= 0)
+        set(grid_, grid);
 }
 
 void GlProgram::set_scene(const brume_plugin_scene &scene)
 {
-    if (scene_ && std::memcmp(&*scene_, &scene, sizeof scene) == 0)
-        return;
-    const auto set_float = [&](const char *name, uint32_t components, const float *data, uint32_t count = 1) {
-        set(name, BRUME_UNIFORM_FLOAT, components, count, data);
+    const auto set_members = [&](const std::vector<Member> &members, const void *from) {
+        for (const Member &member : members)
+            set(member.uniform, static_cast<const char *>(from) + member.offset);
     };
-    const auto set_int = [&](const char *name, const int32_t &value) { set(name, BRUME_UNIFORM_INT, 1, 1, &value); };
+    if (!medium_members_.empty() && (!set_ || std::memcmp(&medium_, scene.medium, sizeof medium_) != 0)) {
+        medium_ = *scene.medium;
+        set_members(medium_members_, &medium_);
+    }
+    if (!camera_members_.empty() && (!set_ || std::memcmp(&camera_, scene.camera, sizeof camera_) != 0)) {
+        camera_ = *scene.camera;
+        set_members(camera_members_, &camera_);
+    }
+    if (output_limit_.location >= 0 && (!set_ || limit_ != scene.output_limit)) {
+        limit_ = scene.output_limit;
+        set(output_limit_, &limit_);
+    }
+    set_ = true;
+}
 
-    const brume_plugin_medium &medium = scene.medium;
-    set_float("brume_medium.scattering", 3, medium.scattering);
-    set_float("brume_medium.absorption", 3, medium.absorption);
-    set_float("brume_medium.emission", 3, medium.emission);
-    set_float("brume_medium.luminance", 3, medium.luminance);
-    set_float("brume_medium.phase", 4, medium.phase);
-    set_float("brume_medium.noise", 4, medium.noise);
-    set_float("brume_medium.noise_shift", 3, medium.noise_shift);
-    set_float("brume_medium.asymmetry", 1, &medium.asymmetry);
-    set_float("brume_medium.constant", 1, &medium.constant);
-    set_int("brume_medium.term_count", medium.term_count);
-    set_float("brume_medium.terms", 4, &medium.terms[0][0], BRUME_MAX_DENSITY_TERMS);
+bool holds(const GlProgram::Uniform &uniform, uint32_t type, uint32_t components)
+{
+    const Type *declared = find_type(uniform.type);
+    return declared && declared->type == type && declared->components == components;
+}
 
-    const brume_plugin_camera &camera = scene.camera;
-    set_float("brume_camera.focal", 2, camera.focal);
-    set_float("brume_camera.tangent_scale", 2, camera.tangent_scale);
-    set_float("brume_camera.center", 2, camera.center);
-    set_int("brume_camera.depth_kind", camera.depth_kind);
-    set_int("brume_camera.sky", camera.sky);
-    set_float("brume_camera.depth_range", 2, camera.depth_range);
-    set_float("brume_camera.far_distance", 1, &camera.far_distance);
-    set_float("brume_camera.sky_distance", 1, &camera.sky_distance);
-    set_float("brume_camera.metres_per_unit", 1, &camera.metres_per_unit);
-    set_int("brume_camera.nonpositive", camera.nonpositive);
-    set_float("brume_camera.right", 3, camera.right);
-    set_float("brume_camera.up", 3, camera.up);
-    set_float("brume_camera.back", 3, camera.back);
-
-    set_float("brume_output_limit", 1, &scene.output_limit);
-    scene_ = scene;
+const char *type_text(const GlProgram::Uniform &uniform)
+{
+    return find_type(uniform.type)->text;
 }
 
 }  // namespace brume::gl

@@ -1,34 +1,33 @@
 // Beside an effect that adds what the lights scatter once, which must not be counted twice. Needs data.glsl, pixel.glsl.
 
-// Whether the pixel shows one of the lights, to within its own width. Needs their spheres: point lights are not seen.
-PURE bool shows_light(sampler2D lights, int count, IN(Camera) camera, IN(Ray) ray)
+// Whether the pixel shows one of the lights, to within its own width. spheres: of product "visible_lights".
+PURE bool shows_light(sampler2D spheres, int count, IN(Camera) camera, vec2 pixel, float distance)
 {
-    float pixel = R(0.7) * max(abs(camera.tangent_scale.x), abs(camera.tangent_scale.y));
+    vec3 through = ray_through(camera, pixel);
+    vec3 direction = through / length(through);
+    float width = R(0.7) * max(abs(camera.tangent_scale.x), abs(camera.tangent_scale.y));
     for (int i = 0; i < count; ++i) {
-        vec4 sphere = data_texel(lights, 4 * i);
+        vec4 sphere = data_texel(spheres, i);
         vec3 center = vec3(sphere);
-        float reach = sphere.w + pixel * length(center);
-        if (sphere.w > R(0.0) && abs(ray.distance - dot(center, ray.direction)) <= reach &&
-            length(cross(center, ray.direction)) <= reach)
+        float reach = sphere.w + width * length(center);
+        if (abs(distance - dot(center, direction)) <= reach && length(cross(center, direction)) <= reach)
             return true;
     }
     return false;
 }
 
-// L_sc / L beside an effect that adds what the lights scatter once: of pixels that show such a light only what is scattered
-// more than once, or its first scattering would be counted twice.
-PURE vec3 share_beside_lights(sampler2D lights, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth,
-                              IN(Pixel) p)
+// The share of a source's scattered light that is no other effect's: of listed lights the first scattering is.
+PURE vec3 shown_share(sampler2D spheres, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, IN(Pixel) p)
 {
-    if (count > 0 && shows_light(lights, count, camera, pixel_ray(camera, pixel, raw_depth)))
-        return rescattered_share(medium, p.density);
-    return p.share;
+    if (count == 0 || !shows_light(spheres, count, camera, pixel, p.distance))
+        return vec3(R(1.0));
+    return rescattered_share(medium, p.density) / max(scattered_share(medium, p.density), vec3(R(1e-30)));
 }
 
-// The share of a source's scattered light that is no other effect's: of listed lights the first scattering is.
-PURE vec3 shown_share(sampler2D lights, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth, float p)
+// L_sc / L of kernel `paper` beside such an effect.
+PURE vec3 share_beside_lights(sampler2D spheres, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, IN(Pixel) p)
 {
-    if (count == 0 || !shows_light(lights, count, camera, pixel_ray(camera, pixel, raw_depth)))
-        return vec3(R(1.0));
-    return rescattered_share(medium, p) / max(scattered_share(medium, p), vec3(R(1e-30)));
+    if (count > 0 && shows_light(spheres, count, camera, pixel, p.distance))
+        return rescattered_share(medium, p.density);
+    return p.share;
 }

@@ -24,13 +24,14 @@ struct Filter {
 
 // ---- sec. 4.1
 
-// With the width that knows where along the ray the medium lies. gaussians: their part of P and of its moment.
-PURE Pixel placed_pixel(IN(Medium) medium, IN(Camera) camera, IN(Filter) f, vec2 pixel, float raw_depth, vec2 gaussians)
+// The width of a pixel that knows where along the ray the medium lies. texel: of product "density"; of_gaussians: their part of
+// P's moment.
+PURE Pixel placed_pixel(Pixel p, IN(Medium) medium, IN(Camera) camera, IN(Filter) f, vec2 pixel, vec2 texel, float of_gaussians)
 {
-    Pixel p = pixel_in_medium(medium, camera, pixel, raw_depth, gaussians.x);
-    Ray ray = pixel_ray(camera, pixel, raw_depth);
-    if (f.placement != 0 && !ray.keep)
-        p.spread *= placement(density_moment(medium, ray.direction, ray.distance) + gaussians.y, p.density);
+    if (f.placement != 0 && texel.y >= R(0.0)) {
+        vec3 through = ray_through(camera, pixel);
+        p.spread *= placement(density_moment(medium, through / length(through), texel.y) + of_gaussians, p.density);
+    }
     return p;
 }
 

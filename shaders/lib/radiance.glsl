@@ -20,6 +20,11 @@ PURE vec3 optical_depth(IN(Medium) medium, float p)
     return min((medium.scattering + medium.absorption) * p, vec3(optical_depth_limit));
 }
 
+PURE vec3 optical_depth(IN(Medium) medium, vec3 p)
+{
+    return min((medium.scattering + medium.absorption) * p, vec3(optical_depth_limit));
+}
+
 // Where no share of scattered light is wanted beside it, which shares_of() gives at no more cost.
 PURE vec3 transmittance(IN(Medium) medium, float p)
 {
@@ -64,6 +69,17 @@ PURE Shares shares_of(IN(Medium) medium, float p)
     return shares;
 }
 
+// p: of each colour by itself.
+PURE Shares shares_of(IN(Medium) medium, vec3 p)
+{
+    vec3 s = min(medium.scattering * p, vec3(optical_depth_limit));
+    vec2 x = parted(s.x);
+    vec2 y = parted(s.y);
+    vec2 z = parted(s.z);
+    vec3 kept = exp(-min(medium.absorption * p, vec3(optical_depth_limit)));
+    return Shares(vec3(x.x, y.x, z.x) * kept, vec3(x.y, y.y, z.y) * kept);
+}
+
 PURE vec3 scattered_share(IN(Medium) medium, float p)
 {
     return shares_of(medium, p).scattered;
@@ -84,6 +100,13 @@ PURE vec3 emitted(IN(Medium) medium, float p)
 {
     if (medium.emission == vec3(R(0.0)))
         return vec3(R(0.0));
+    vec3 tau = optical_depth(medium, p);
+    vec3 length = p * vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
+    return min(medium.emission * length, vec3(density_limit));
+}
+
+PURE vec3 emitted(IN(Medium) medium, vec3 p)
+{
     vec3 tau = optical_depth(medium, p);
     vec3 length = p * vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
     return min(medium.emission * length, vec3(density_limit));

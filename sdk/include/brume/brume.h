@@ -40,7 +40,7 @@
 #include <stdint.h>
 
 #define BRUME_VERSION_MAJOR 0
-#define BRUME_VERSION_MINOR 1
+#define BRUME_VERSION_MINOR 2
 #define BRUME_VERSION_PATCH 0
 
 #if defined(_WIN32)
@@ -181,6 +181,26 @@ typedef struct brume_parameter_info {
 #define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL}
 BRUME_API brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
                                                 brume_parameter_info *info);
+
+#define BRUME_LAYER_INPUT 1u    /* read */
+#define BRUME_LAYER_OUTPUT 2u   /* filled */
+#define BRUME_LAYER_NEEDED 4u   /* an input without which the effect does not run */
+#define BRUME_LAYER_OF_LIGHT 8u /* one for each light of the scene */
+
+/* A layer that an effect reads or fills. */
+typedef struct brume_layer_info {
+  uint32_t struct_size;
+  uint32_t flags;    /* BRUME_LAYER_INPUT or _OUTPUT, and what else holds */
+  uint32_t channels; /* 1 or 3 */
+  uint32_t reserved;
+  const char *name;  /* [a-z][a-z0-9_]*, at most 63 bytes */
+  const char *help;  /* one line: what it is, and what for */
+} brume_layer_info;
+#define BRUME_LAYER_INFO_INIT {(uint32_t)sizeof(brume_layer_info), 0u, 0u, 0u, NULL, NULL}
+
+/* How many layers an effect reads and fills; effect NULL: those that the library reads itself. 0 of an effect that is not there. */
+BRUME_API uint32_t brume_layer_count(brume_context context, const char *effect);
+BRUME_API brume_status brume_layer_get_info(brume_context context, const char *effect, uint32_t index, brume_layer_info *info);
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
@@ -359,6 +379,56 @@ typedef struct brume_scene_info {
 
 BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info *info);
 
+/* ---- images and layers ------------------------------------------------------------------------------------------- */
+
+#define BRUME_IMAGE_HOST 0u       /* data, row_stride, pixel_stride */
+#define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only */
+
+#define BRUME_PIXEL_F32 0u
+#define BRUME_PIXEL_F16 1u
+
+#define BRUME_ORIGIN_TOP_LEFT 0u
+#define BRUME_ORIGIN_BOTTOM_LEFT 1u /* the first row is the bottom one, as GL has it; all images of a frame agree */
+
+typedef struct brume_image {
+  uint32_t struct_size;
+  uint32_t kind;         /* BRUME_IMAGE_...; default HOST */
+  uint32_t pixel;        /* BRUME_PIXEL_...; host memory only (a texture knows its own); default F32 */
+  uint32_t channels;     /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; depth: 1; default 4 */
+  int32_t width;
+  int32_t height;
+  uint32_t origin;       /* BRUME_ORIGIN_...; default TOP_LEFT */
+  uint32_t gl_texture;   /* a complete GL_TEXTURE_2D, level 0 is used. Colour: any float or normalised format with RGB;
+                            depth: R16F, R32F or a depth format; output: RGBA16F or RGBA32F */
+  void *data;            /* of the first row's first pixel; read only for inputs */
+  int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
+  int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
+} brume_image;
+#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0}
+
+/* A picture beside colour and depth, by the name of what it holds. Effects say which they read and fill
+   (brume_layer_get_info); those that ship know, for instance,
+     inputs   optical_depth, transmittance (of any renderer's fog: they take the place of the scene's density along the ray)
+     outputs  transmittance (exp(-tau), RGB), optical_depth (tau, RGB; sky in a medium without end gives up to 1e30 times sigma),
+              scattered (what was added to the attenuated image: scattered and emitted radiance, RGB), blur_radius (deviation of
+              the blur of this pixel's light [px], one channel), airlight (radiance of the lights scattered once toward the
+              camera, RGB), airlight_error (estimate of that radiance's error, RGB), light_airlight (airlight of one light, RGB) */
+typedef struct brume_layer {
+  uint32_t struct_size;
+  uint32_t kind;            /* BRUME_LAYER_...; default 0 */
+  const char *name;
+  const brume_image *image; /* in a format: not read. Inputs: 1 to 4 channels, of which effects see as many as they ask for (grey is
+                               spread). Outputs: 3 or 4 channels (alpha is set to 1), 1 for layers of one channel */
+  uint32_t light;           /* layers of lights: index of the light in the scene. In a format: not read */
+  uint32_t reserved;        /* 0 */
+} brume_layer;
+#define BRUME_LAYER_INIT {(uint32_t)sizeof(brume_layer), 0u, NULL, NULL, 0u, 0u}
+
+#define BRUME_LAYER_WORLD 0u  /* of normals: in world axes */
+#define BRUME_LAYER_CAMERA 1u /* in camera axes (+x right, +y up, looking down -z) */
+
+#define BRUME_MAX_LAYERS 8192u /* of inputs, and of outputs, those of single lights included */
+
 /* ---- plan -------------------------------------------------------------------------------------------------------- */
 
 #define BRUME_DEPTH_PLANAR 0u     /* distance along the optical axis (what EXR's Z means); needs the field of view */
@@ -376,14 +446,6 @@ BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info 
 #define BRUME_NONPOSITIVE_FAR 0u  /* planar and ray depth <= 0 is far: what many renderers write where nothing was hit */
 #define BRUME_NONPOSITIVE_NEAR 1u /* it is at the camera, with no medium in front */
 
-#define BRUME_OUTPUT_TRANSMITTANCE 1u /* exp(-tau), RGB */
-#define BRUME_OUTPUT_OPTICAL_DEPTH 2u /* tau, RGB; sky in a medium without end gives up to 1e30 times sigma */
-#define BRUME_OUTPUT_SCATTERED 4u     /* what was added to the attenuated image: scattered and emitted radiance, RGB */
-#define BRUME_OUTPUT_BLUR_RADIUS 8u   /* deviation of the blur of this pixel's light [px], one channel */
-#define BRUME_OUTPUT_AIRLIGHT 16u     /* radiance of the lights scattered once toward the camera, RGB */
-#define BRUME_OUTPUT_AIRLIGHT_ERROR 32u /* estimate of that radiance's error, RGB */
-#define BRUME_OUTPUT_LIGHT_AIRLIGHT 64u /* airlight of one light (brume_extra_output.light), RGB */
-
 typedef struct brume_format {
   uint32_t struct_size;
   int32_t width;              /* of the images, 1 to 65536 (and within the device's largest texture) */
@@ -397,17 +459,29 @@ typedef struct brume_format {
   double far_distance;        /* planar or ray distances >= this are far, in scene units; default 1e9. NaN, infinite and
                                  negative values are, too, and 0 but for DEVICE and NORMALIZED (see nonpositive). */
   uint32_t sky;               /* BRUME_SKY_...; default FOG */
-  uint32_t outputs;           /* extra outputs wanted: BRUME_OUTPUT_... flags; default 0 */
+  uint32_t input_count;       /* of layers that every frame brings; default 0 */
   double sky_distance;        /* for BRUME_SKY_CLAMP, in scene units, along the ray */
   uint32_t nonpositive;       /* BRUME_NONPOSITIVE_...; default FAR */
-  uint32_t reserved;          /* 0 */
+  uint32_t output_count;      /* of layers that frames may ask for; default 0 */
+  const brume_layer *inputs;  /* names and kinds, each once; each of inputs[0].struct_size */
+  const brume_layer *outputs;
 } brume_format;
-#define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u}
+#define BRUME_FORMAT_INIT \
+  {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u, NULL, NULL}
 
 /* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
    nothing more once warm. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
+
+/* Gives the plan another scene of the same structure, for the frames from now on, without planning anew: medium values, density
+   terms and Gaussians, lights, environment and camera may differ. format NULL: as it was; else depth kind, ranges, far and sky
+   distances may differ. Structure is: the effects and their parameters, the quality asked, whether there is a medium and which of
+   its values are zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian
+   densities, whether there are lights, how many coefficients the environment has; the size, the display window's presence
+   and the layers of the format. Where that differs the call fails with BRUME_ERROR_FORMAT, names what differs, and leaves the plan as
+   it was. Cheap: it copies the scene. Predictions stay those of the scene that was planned. */
+BRUME_API brume_status brume_plan_update(brume_plan plan, brume_scene scene, const brume_format *format);
 
 typedef struct brume_plan_info {
   uint32_t struct_size;
@@ -440,41 +514,7 @@ typedef struct brume_plan_entry {
 #define BRUME_PLAN_ENTRY_INIT {(uint32_t)sizeof(brume_plan_entry), 0u, NULL, NULL, NULL, 0u, 0u, 0.0, 0.0}
 BRUME_API brume_status brume_plan_get_entry(brume_plan plan, uint32_t index, brume_plan_entry *entry);
 
-/* ---- images and execution ---------------------------------------------------------------------------------------- */
-
-#define BRUME_IMAGE_HOST 0u       /* data, row_stride, pixel_stride */
-#define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only */
-
-#define BRUME_PIXEL_F32 0u
-#define BRUME_PIXEL_F16 1u
-
-#define BRUME_ORIGIN_TOP_LEFT 0u
-#define BRUME_ORIGIN_BOTTOM_LEFT 1u /* the first row is the bottom one, as GL has it; all images of a frame agree */
-
-typedef struct brume_image {
-  uint32_t struct_size;
-  uint32_t kind;         /* BRUME_IMAGE_...; default HOST */
-  uint32_t pixel;        /* BRUME_PIXEL_...; host memory only (a texture knows its own); default F32 */
-  uint32_t channels;     /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; depth: 1; default 4 */
-  int32_t width;
-  int32_t height;
-  uint32_t origin;       /* BRUME_ORIGIN_...; default TOP_LEFT */
-  uint32_t gl_texture;   /* a complete GL_TEXTURE_2D, level 0 is used. Colour: any float or normalised format with RGB;
-                            depth: R16F, R32F or a depth format; output: RGBA16F or RGBA32F */
-  void *data;            /* of the first row's first pixel; read only for inputs */
-  int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
-  int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
-} brume_image;
-#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0}
-
-typedef struct brume_extra_output {
-  uint32_t struct_size;
-  uint32_t output;          /* one BRUME_OUTPUT_... flag, which the plan's format asked for */
-  const brume_image *image; /* 3 or 4 channels (alpha is set to 1), 1 for BLUR_RADIUS; textures as for `output` */
-  uint32_t light;           /* LIGHT_AIRLIGHT: index of the light in the scene; may be given once for each light */
-  uint32_t reserved;        /* 0 */
-} brume_extra_output;
-#define BRUME_EXTRA_OUTPUT_INIT {(uint32_t)sizeof(brume_extra_output), 0u, NULL, 0u, 0u}
+/* ---- execution --------------------------------------------------------------------------------------------------- */
 
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
@@ -484,15 +524,18 @@ typedef struct brume_extra_output {
    waits; the caller orders its own reads after it as after any GL write (a memory barrier for all uses is issued). */
 typedef struct brume_frame {
   uint32_t struct_size;
-  uint32_t extra_count;
+  uint32_t input_count;
   const brume_image *color;
   const brume_image *depth;
   const brume_image *output;
-  const brume_extra_output *extra; /* extra_count of them, each of extra[0].struct_size */
-  const brume_camera *camera;      /* what it gives goes before the scene's; NULL (default): the scene's */
-  double frame;                    /* frame number, for the scene's keyed values; default 0 */
+  const brume_layer *inputs;  /* input_count of them, each of inputs[0].struct_size: all that the plan's format names */
+  const brume_layer *outputs; /* output_count of them: any that the plan's format names, each once (and once for each light) */
+  uint32_t output_count;
+  uint32_t reserved;          /* 0 */
+  const brume_camera *camera; /* what it gives goes before the scene's; NULL (default): the scene's */
+  double frame;               /* frame number, for the scene's keyed values; default 0 */
 } brume_frame;
-#define BRUME_FRAME_INIT {(uint32_t)sizeof(brume_frame), 0u, NULL, NULL, NULL, NULL, NULL, 0.0}
+#define BRUME_FRAME_INIT {(uint32_t)sizeof(brume_frame), 0u, NULL, NULL, NULL, NULL, NULL, 0u, 0u, NULL, 0.0}
 
 BRUME_API brume_status brume_plan_execute(brume_plan plan, const brume_frame *frame);
 

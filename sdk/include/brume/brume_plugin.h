@@ -1,5 +1,5 @@
-/* Brume: the ABI between the library and its effects. C99. The effects that ship with the library use this header and
- * nothing else, so a stranger's effect can do all that they do.
+/* Brume: the ABI between the library and its effects. C99. The effects that ship with the library use this header, and the
+ * maths that is installed beside it (brume/maths), and nothing else, so a stranger's effect can do all that they do.
  *
  * A plugin is a shared library in lib/brume/ beside the Brume library (or in a context's plugin_directory) that exports
  *
@@ -8,8 +8,12 @@
  * It returns its table, which must live as long as the library is loaded, or NULL if it cannot work with that ABI. The
  * table is checked before anything else is called; a plugin that fails the check is refused with the reason.
  *
- * An effect turns frame->color into frame->output. It never touches OpenGL or threads: images, programs, passes and
- * loops are services of the host, on whichever backend the context has. Callbacks return a brume_status; before a
+ * An effect turns frame->color into frame->output. It never touches OpenGL or threads, and need not know which backend runs
+ * it: it describes its passes once, each with a shader and a function for rows, and the host runs the one that fits.
+ *
+ * What it sees beside colour are layers, pictures of the caller's that it reads or fills, and products, what the host or other
+ * effects make of the scene. It says which in its table; the host checks that what it needs is there, and in which order effects
+ * run. Callbacks return a brume_status; before a
  * failing return an effect calls services->fail() with a message. C++ exceptions that escape are caught by the host and
  * become BRUME_ERROR_PLUGIN.
  */
@@ -18,7 +22,7 @@
 
 #include "brume.h"
 
-#define BRUME_PLUGIN_ABI 1u
+#define BRUME_PLUGIN_ABI 2u
 
 #if defined(_WIN32)
 #define BRUME_PLUGIN_VISIBLE __declspec(dllexport)
@@ -37,10 +41,11 @@ extern "C" {
 
 typedef struct brume_host_t *brume_host;               /* the plan on whose behalf the host calls */
 typedef struct brume_plugin_image_t *brume_plugin_image; /* a 2-D image of 32-bit floats with 1, 2 or 4 channels */
-typedef struct brume_program_t *brume_program;         /* a compiled compute shader */
+typedef struct brume_pass_t *brume_pass;               /* a pass as it was described */
 
 /* ---- what effects see of the scene: all of it relative to the camera, in metres, for one frame ----------------------
-   These two structs are also GLSL structs of the same names and members (shaders/lib/scene.glsl); programs that declare
+   Structs of this section grow at their end only, and are given by pointer with the size that the host knows. The first two are
+   also structs of the maths (brume/maths/lib/scene.glsl: Medium, Camera), member by member; programs that declare
    `uniform Medium brume_medium;`, `uniform Camera brume_camera;` or `uniform float brume_output_limit;` get them filled by
    the host. */
 
@@ -75,8 +80,8 @@ typedef struct brume_plugin_camera {
   float back[3];
 } brume_plugin_camera;
 
-/* One Gaussian of the medium: density amplitude * exp(-scale^2 |x - center|^2) (Fogshop eq. 7). Two texels of
-   frame->gaussians. */
+/* One Gaussian of the medium: density amplitude * exp(-scale^2 |x - center|^2) (Fogshop eq. 7). Two texels of product
+   "gaussians". */
 typedef struct brume_plugin_gaussian {
   float center[3];  /* camera space [m] */
   float scale;      /* a [1/m], > 0 */
@@ -84,7 +89,7 @@ typedef struct brume_plugin_gaussian {
   float colour[3];  /* share of what it scatters that is not absorbed after all, 0 to 1: tints airlight, not extinction */
 } brume_plugin_gaussian;
 
-/* A light. Four texels of frame->lights, hence floats only. */
+/* A light. Its first 16 floats are four texels of product "lights". */
 typedef struct brume_plugin_light {
   float position[3];  /* camera space [m]; DIRECTIONAL: 0 */
   float radius;       /* [m], >= 0; DIRECTIONAL: 0 */
@@ -100,119 +105,126 @@ typedef struct brume_plugin_light {
 typedef struct brume_plugin_scene {
   uint32_t struct_size;
   uint32_t has_medium;
-  brume_plugin_medium medium;
-  brume_plugin_camera camera;
-  float output_limit;     /* largest magnitude that the output image holds: 65504 or FLT_MAX */
+  const brume_plugin_medium *medium;
+  const brume_plugin_camera *camera;
+  const brume_plugin_light *lights;       /* light_count of them, light_size bytes apart */
+  const brume_plugin_gaussian *gaussians; /* gaussian_count of them, gaussian_size bytes apart. When planning: NULL where files or
+                                             cameras come with the frames; then gaussian_count is 1 if there will be any */
+  const float (*environment)[3]; /* RGB of each coefficient, in the order of brume_scene_set_environment; world axes */
+  uint32_t medium_size;
+  uint32_t camera_size;
+  uint32_t light_size;
+  uint32_t gaussian_size;
   uint32_t light_count;
   uint32_t gaussian_count;
   uint32_t environment_count; /* of spherical-harmonic coefficients: 0, 1, 4, 9, 16, 25 or 36 */
-  const brume_plugin_light *lights;
-  const brume_plugin_gaussian *gaussians;
-  const float (*environment)[3]; /* RGB of each coefficient, in the order of brume_scene_set_environment; world axes */
+  float output_limit;            /* largest magnitude that the output image holds: 65504 or FLT_MAX */
   double position[3];            /* of the camera in the world [m] */
-  uint64_t revision; /* of lights, Gaussians and medium in the world: the same number, the same values; the camera may move */
+  uint64_t revision; /* of lights, Gaussians, environment and medium in the world: the same number, the same values; the camera
+                        may move */
 } brume_plugin_scene;
 
-/* ---- planning ---------------------------------------------------------------------------------------------------- */
+/* ---- layers and products ------------------------------------------------------------------------------------------
+   An effect's table lists the layers that it reads and fills (brume_layer_info in brume.h), and by name the products that it
+   uses and makes. Everywhere below, layers are counted in the order of that table, and products in that of `uses`. */
 
-typedef struct brume_plugin_request {
+typedef struct brume_plugin_layer {
+  brume_plugin_image image;             /* as many channels as the table says (3: RGBA); NULL: not given, or not wanted */
+  const brume_plugin_image *of_lights;  /* BRUME_LAYER_OF_LIGHT: one for each light of the scene, each may be NULL; or NULL */
+  uint32_t kind;                        /* brume_layer.kind */
+  uint32_t reserved;
+} brume_plugin_layer;
+
+/* What was made of the scene before this effect runs. Where the scene has nothing of the kind, image_count is 0. The host's own:
+
+   name              images
+   density           [0] two channels per pixel: int rho dt to what the pixel shows [m at unit density], and the distance to it
+                     along the ray [m], 1e30 where far; negative: a pixel to be kept free of the medium, whose integral is 0
+   density_rgb       only where the caller gave a layer optical_depth or transmittance: [0] RGBA, int rho dt as each colour of the
+                     scene's medium has it; product density then has their mean by luminance
+   gaussian_density  two channels per pixel: of the medium's Gaussians alone int rho dt, and int rho (1 - t/D)^2 dt
+   gaussians         [0] data: 2 texels each, as brume_plugin_gaussian. [1] data: per tile of BRUME_TILE_SIZE squared pixels, row
+                     by row: x the first and y the number of its entries in [2]. [2] data, one channel: indices of the
+                     Gaussians that matter in the tile, by distance. count: of Gaussians
+   lights            data: 4 texels each, as brume_plugin_light. count: of lights
+   visible_lights    data: 1 texel each, center and radius, of the lights that have a radius and so can be seen. count: of them
+
+   Beside these, effects make what they name in `makes`. Names without images say what a picture holds: attenuated_radiance (it
+   is attenuated by the medium, so later effects must not do it again), single_scattering (what the lights scatter once is added
+   to it). */
+typedef struct brume_plugin_product {
   uint32_t struct_size;
-  uint32_t backend;                /* BRUME_BACKEND_CPU or _GL */
-  int32_t width;
-  int32_t height;
-  uint32_t outputs;                /* BRUME_OUTPUT_... flags wanted */
-  uint32_t parameter_count;
-  const double *parameters;        /* values in the order of the effect's table; choices by index */
-  const brume_plugin_scene *scene; /* with the largest value that each keyed quantity of the medium takes: what is zero here
-                                      is zero in every frame. Frames may bring another camera. */
-  uint32_t animated;               /* 1: some value of the scene is keyed */
-  uint32_t pose_matters;           /* 1: some density term depends on the position */
-  uint32_t attenuated;             /* 1: an effect that runs before this one attenuates the image by the medium */
-  uint32_t lights_scatter;         /* 1: some effect of this scene adds what the lights scatter once */
-  double transmittance;            /* mean transmittance that frames are expected to have; 0 where nobody knows */
-  double detail;                   /* of brume_quality; 0 where nobody knows */
-} brume_plugin_request;
-
-typedef struct brume_plugin_entry {
-  uint32_t struct_size;
-  uint32_t runs;       /* 1: a pass, 0: something dropped */
-  const char *name;    /* as later given to run() or rows(); copied */
-  const char *reason;  /* copied */
-  uint64_t bytes;      /* the least to be read and written per frame */
-  uint64_t operations; /* what it costs: about as many nanoseconds of one thread of a server CPU */
-} brume_plugin_entry;
-
-/* ---- executing --------------------------------------------------------------------------------------------------- */
-
-typedef struct brume_plugin_frame {
-  uint32_t struct_size;
-  uint32_t outputs;                /* BRUME_OUTPUT_... flags for which an image is there in this frame */
-  const brume_plugin_scene *scene;
-  brume_plugin_image color;        /* RGBA; linear, premultiplied; may hold NaN and infinities */
-  brume_plugin_image depth;        /* one channel, as the caller gave it: shaders/lib/ray.glsl converts */
-  brume_plugin_image output;       /* RGBA; never the image `color` is */
-  brume_plugin_image transmittance; /* RGBA, NULL unless wanted */
-  brume_plugin_image optical_depth; /* RGBA, NULL unless wanted */
-  brume_plugin_image scattered;     /* RGBA, NULL unless wanted */
-  brume_plugin_image blur_radius;   /* one channel, NULL unless wanted */
-  brume_plugin_image airlight;      /* RGBA, NULL unless wanted */
-  brume_plugin_image airlight_error; /* RGBA, NULL unless wanted */
-  const brume_plugin_image *light_airlight; /* one RGBA image per light of the scene, each NULL unless wanted; or NULL */
-
-  /* What the host made of the scene's Gaussians and lights; NULL where there are none (a slot left unbound). */
-  brume_plugin_image gaussian_density; /* 2 channels per pixel: their int rho dt to what the pixel shows [m at unit
-                                          density], and int rho (1 - t/D)^2 dt */
-  brume_plugin_image gaussians;        /* data: 2 texels each, as brume_plugin_gaussian */
-  brume_plugin_image lights;           /* data: 4 texels each, as brume_plugin_light */
-  brume_plugin_image tiles;            /* data: per tile of BRUME_TILE_SIZE squared pixels, row by row: x the first and y the
-                                          number of its entries in tile_gaussians */
-  brume_plugin_image tile_gaussians;   /* data, one channel: indices of the Gaussians that matter in the tile, by distance */
-} brume_plugin_frame;
+  uint32_t image_count;
+  const brume_plugin_image *images;
+  uint64_t revision; /* the same number, the same content */
+  uint32_t count;
+  uint32_t reserved;
+} brume_plugin_product;
 
 #define BRUME_TILE_SIZE 16
 
 /* Data images are arrays of texels: texel i is at (i % BRUME_DATA_WIDTH, i / BRUME_DATA_WIDTH). See upload(). */
 #define BRUME_DATA_WIDTH 1024
 
-/* A slot that a pass leaves unbound reads as (0, 0, 0, 1) and drops what is written to it. */
+#define BRUME_MADE_NOWHERE 0u
+#define BRUME_MADE_EARLIER 1u /* by an effect that runs before this one, or by the host */
+#define BRUME_MADE_LATER 2u   /* by an effect of this plan that comes after this one, or by this one */
+
+/* ---- planning ---------------------------------------------------------------------------------------------------- */
+
+typedef struct brume_plugin_request {
+  uint32_t struct_size;
+  uint32_t backend;                /* BRUME_BACKEND_CPU or _GL: for costs; passes run on either */
+  int32_t width;
+  int32_t height;
+  uint32_t parameter_count;
+  uint32_t layer_count;
+  const double *parameters;        /* values in the order of the effect's table; choices by index */
+  const uint32_t *layers;          /* in the order of the effect's table: 1 if the frames will give it, or want it filled */
+  const brume_plugin_scene *scene; /* with the largest value that each keyed quantity of the medium takes: what is zero here
+                                      is zero in every frame. Frames may bring another camera. */
+  uint32_t animated;               /* 1: some value of the scene is keyed */
+  uint32_t pose_matters;           /* 1: some density term depends on the position */
+  double transmittance;            /* mean transmittance that frames are expected to have; 0 where nobody knows */
+  double detail;                   /* of brume_quality; 0 where nobody knows */
+} brume_plugin_request;
+
+typedef struct brume_plugin_entry {
+  uint32_t struct_size;
+  uint32_t runs;       /* 1: passes of this name, 0: something dropped */
+  const char *name;    /* copied */
+  const char *reason;  /* copied */
+  uint64_t bytes;      /* the least to be read and written per frame */
+  uint64_t operations; /* what it costs: about as many nanoseconds of one thread of a server CPU */
+} brume_plugin_entry;
+
+/* ---- passes ------------------------------------------------------------------------------------------------------ */
+
+/* A slot to which no image is bound reads as (0, 0, 0, 1) in shaders, which drop what they write to it; rows find NULL there. */
 #define BRUME_ACCESS_FETCH 0u  /* sampler2D, nearest: for texelFetch */
 #define BRUME_ACCESS_LINEAR 1u /* sampler2D, bilinear, clamped to the edge */
 #define BRUME_ACCESS_WRITE 2u  /* layout-less `writeonly uniform image2D` */
 
-typedef struct brume_plugin_binding {
-  const char *name;         /* of the uniform; one that the program does not use is ignored */
-  brume_plugin_image image;
-  uint32_t access;          /* BRUME_ACCESS_... */
+typedef struct brume_slot {
+  const char *name;     /* of the uniform; one that a program leaves out is nothing to it */
+  uint32_t access;      /* BRUME_ACCESS_... */
   uint32_t reserved;
-} brume_plugin_binding;
+} brume_slot;
 
-#define BRUME_UNIFORM_FLOAT 0u /* components 1 to 4: float, vec2, vec3, vec4 */
-#define BRUME_UNIFORM_INT 1u   /* components 1 to 4: int, ivec2, ivec3, ivec4 */
+#define BRUME_CONSTANT_FLOAT 0u /* components 1 to 4: float, vec2, vec3, vec4 */
+#define BRUME_CONSTANT_INT 1u   /* components 1 to 4: int, ivec2, ivec3, ivec4 */
 
-typedef struct brume_plugin_uniform {
+/* A member of the struct of constants that run() takes, and the uniform that it is in shaders ("settings.level"). */
+typedef struct brume_constant {
   const char *name;
-  uint32_t type;
+  uint32_t type;        /* BRUME_CONSTANT_... */
   uint32_t components;
   uint32_t count;       /* array length, 1 for a plain one */
-  uint32_t reserved;
-  const void *data;     /* count * components values */
-} brume_plugin_uniform;
-
-typedef struct brume_plugin_pass {
-  uint32_t struct_size;
-  uint32_t binding_count;
-  const char *name;         /* of the plan's entry whose time this counts to */
-  brume_program program;
-  const brume_plugin_binding *bindings;
-  const brume_plugin_uniform *uniforms;
-  uint32_t uniform_count;
-  int32_t width;            /* invocations wanted; set as `uniform ivec2 brume_grid` */
-  int32_t height;
-  uint32_t reserved;
-} brume_plugin_pass;
+  uint32_t offset;      /* in the struct */
+} brume_constant;
 
 typedef struct brume_plugin_pixels {
-  float *data;
+  float *data;        /* NULL: nothing is bound there */
   int64_t row_stride; /* in floats */
   int32_t width;
   int32_t height;
@@ -220,8 +232,61 @@ typedef struct brume_plugin_pixels {
   int32_t reserved;
 } brume_plugin_pixels;
 
-/* Rows first (inclusive) to last (exclusive). Called on several threads at once; must depend on nothing but its rows. */
-typedef brume_status (*brume_rows_function)(void *user, int32_t first, int32_t last);
+/* What a pass on the CPU is given. */
+typedef struct brume_plugin_rows {
+  uint32_t struct_size;
+  int32_t width;                    /* the grid: what run() was called with */
+  int32_t height;
+  uint32_t slot_count;
+  const brume_plugin_pixels *slots; /* in the order of the pass's slots */
+  const void *constants;
+  const brume_plugin_scene *scene;
+  void *user;                       /* as run() was given it */
+} brume_plugin_rows;
+
+/* Rows first (inclusive) to last (exclusive) of the grid. Called on several threads at once; must depend on nothing but its
+   rows. */
+typedef brume_status (*brume_rows_function)(const brume_plugin_rows *call, int32_t first, int32_t last);
+
+/* A pass, on whichever backend: for each point of a grid it reads images and constants and writes images. */
+typedef struct brume_pass_desc {
+  uint32_t struct_size;
+  uint32_t slot_count;
+  const char *name;                /* of the plan's running entry that its time counts to */
+  const brume_slot *slots;
+  const brume_constant *constants;
+  uint32_t constant_count;
+  uint32_t constant_size;          /* of the struct; 0 where there are no constants */
+
+  /* For OpenGL: the body of a compute shader; NULL: there is none, and plans on that backend are refused. The host supplies
+     #version, the workgroup size (8 x 8), `uniform ivec2 brume_grid` and the lines of `defines`; `#include "file.glsl"` takes
+     from brume/maths/lib. Compiled once per context for the same texts. Its uniforms are those of `slots`, `constants` and the
+     host's, whose names begin with brume_; any other is refused. */
+  const char *source;
+  const char *source_name;         /* as messages call it; NULL: `name` */
+  const char *defines;             /* NULL: none */
+
+  /* For the CPU; NULL: there is none, and plans on that backend are refused. Called for all rows of the grid, in blocks of
+     `grain`, on all threads; the first status that is not BRUME_OK ends it. */
+  brume_rows_function rows;
+  int32_t grain;
+  uint32_t reserved;
+} brume_pass_desc;
+
+/* ---- executing --------------------------------------------------------------------------------------------------- */
+
+typedef struct brume_plugin_frame {
+  uint32_t struct_size;
+  uint32_t layer_count;
+  uint32_t product_count;
+  uint32_t reserved;
+  const brume_plugin_scene *scene;
+  brume_plugin_image color;             /* RGBA; linear, premultiplied; may hold NaN and infinities */
+  brume_plugin_image depth;             /* one channel, as the caller gave it: ray.glsl converts; see product "density" */
+  brume_plugin_image output;            /* RGBA; never the image `color` is */
+  const brume_plugin_layer *layers;     /* in the order of the effect's table */
+  const brume_plugin_product *products; /* in the order of the effect's `uses` */
+} brume_plugin_frame;
 
 typedef struct brume_services {
   uint32_t struct_size;
@@ -237,25 +302,24 @@ typedef struct brume_services {
   /* In plan(): an image that lives as long as the plan; pooled between plans. Its content is undefined at each frame. */
   brume_status (*create_image)(brume_host host, const char *label, int32_t width, int32_t height, int32_t channels,
                                brume_plugin_image *out);
-  /* In plan(), GL only: a compute program. The host supplies #version, the workgroup size (8 x 8), `uniform ivec2
-     brume_grid` and the lines of `defines`; `#include "file.glsl"` takes from shaders/lib. Compiled once per context
-     for the same texts. Lives as long as the context. Uniforms are plain floats, ints and their vectors, sampler2D and
-     writeonly image2D; names that begin with brume_ are the host's. */
-  brume_status (*compile)(brume_host host, const char *name, const char *source, const char *defines, brume_program *out);
+  /* In plan(): a pass that lives as long as the plan. Its name, slots, constants and texts are copied. */
+  brume_status (*create_pass)(brume_host host, const brume_pass_desc *desc, brume_pass *out);
+  /* In plan(): who makes the product of this name: BRUME_MADE_... */
+  uint32_t (*made)(brume_host host, const char *product);
 
-  /* In execute(), GL only: one dispatch; later passes see what it wrote. */
-  brume_status (*run)(brume_host host, const brume_plugin_pass *pass);
-  /* In execute(), CPU only: calls `function` for all rows [0, count), in blocks of `grain`, on all threads. The first
-     status that is not BRUME_OK ends it. */
-  brume_status (*rows)(brume_host host, const char *name, int32_t count, int32_t grain, brume_rows_function function,
-                       void *user);
-  /* In execute(), CPU only: the memory of an image. */
-  brume_status (*pixels)(brume_host host, brume_plugin_image image, brume_plugin_pixels *out);
+  /* In execute(): one run of a pass; later ones see what it wrote. images: in the order of the pass's slots, NULL: unbound.
+     constants: the struct that the pass describes. width, height: of the grid. user: for rows() alone; alive during the call. */
+  brume_status (*run)(brume_host host, brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width,
+                      int32_t height, void *user);
 
   /* In plan() or execute(): a data image of 1 or 4 channels with this content (copied), to be read only. It lives until the
      effect uploads to the same slot (0 to 63, the effect's own numbering) again, or the plan ends. */
   brume_status (*upload)(brume_host host, uint32_t slot, int32_t channels, const float *values, uint64_t texels,
                          brume_plugin_image *out);
+  /* In plan() or execute(): the images of a product that this effect makes, from now on. The array is copied, the images are the
+     effect's own. `revision` tells contents apart. */
+  brume_status (*publish)(brume_host host, const char *product, const brume_plugin_image *images, uint32_t image_count,
+                          uint32_t count, uint64_t revision);
 } brume_services;
 
 /* ---- the effect -------------------------------------------------------------------------------------------------- */
@@ -273,16 +337,27 @@ typedef struct brume_effect {
   uint32_t abi;             /* BRUME_PLUGIN_ABI of the plugin's header */
   const char *name;         /* [a-z][a-z0-9_]*, at most 63 bytes */
   const char *help;         /* one line */
-  int32_t order;            /* effects run by ascending order, then by name; multiscatter has 100 */
+  int32_t order;            /* effects run after those that make what they use, else by ascending order, then by name;
+                               multiscatter has 100 */
   uint32_t thread_safety;   /* BRUME_THREADS_... */
   uint32_t wanted;          /* BRUME_WANTED_... */
-  uint32_t outputs;         /* the BRUME_OUTPUT_... flags that it can fill */
-  uint32_t attenuates;      /* 1: its output is attenuated by the medium, so later effects must not do it again */
   uint32_t parameter_count; /* at most 256 */
+  uint32_t layer_count;     /* at most 64 */
+  uint32_t make_count;      /* at most 64 */
+  uint32_t use_count;       /* at most 64 */
+  uint32_t reserved;
   const brume_parameter_info *parameters; /* each of parameters[0].struct_size */
+  const brume_layer_info *layers;         /* read and filled; each of layers[0].struct_size */
+  const char *const *makes;               /* names of products */
+  const char *const *uses;                /* those that nobody makes have no images */
 
-  /* Looks at the request, adds entries, images, programs. No running entry added: the effect is dropped, plan state
-     NULL. *state is the effect's own, given back to execute and destroy. */
+  /* Looks at the request, adds entries, images, passes. No running entry added: the effect is dropped, plan state
+     NULL. *state is the effect's own, given back to execute and destroy.
+
+     Frames may come with other values than the request's scene has (keys, brume_plan_update): of its medium, lights, Gaussians,
+     environment and camera. What stays as planned: whether there is a medium, which of its nine cross-sections and emissions are
+     zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian densities, how
+     many coefficients the environment has, and whether there are lights. */
   brume_status (*plan)(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state);
   brume_status (*execute)(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame);
   void (*destroy)(void *state); /* state may be NULL */

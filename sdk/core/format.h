@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <brume/brume.h>
+
+namespace brume {
+
+// A caller's format with the layers that it names; the struct's own pointers to them are NULL.
+struct Format : brume_format {
+    struct LayerName {
+        std::string name;
+        uint32_t kind = 0;
+    };
+
+    Format(const brume_format &given) : brume_format(given)
+    {
+        for (uint32_t i = 0; i < given.input_count; ++i)
+            input_layers.push_back({given.inputs[i].name, given.inputs[i].kind});
+        for (uint32_t i = 0; i < given.output_count; ++i)
+            output_layers.push_back({given.outputs[i].name, given.outputs[i].kind});
+        inputs = outputs = nullptr;
+    }
+
+    std::vector<LayerName> input_layers, output_layers;
+};
+
+}  // namespace brume
