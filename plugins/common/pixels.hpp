@@ -32,29 +32,13 @@ inline vec2 pixel_centre(int x, int y)
     return vec2(float(x) + 0.5f, float(y) + 0.5f);
 }
 
-// function(first, last) for ranges of rows, on all threads.
-template <class Function>
-brume_status for_ranges(const brume_services &services, brume_host host, const char *pass, int count, int grain,
-                        Function function)
+// function(x, y) for each pixel of the rows first to last (exclusive) of a pass's grid.
+template <class Function> brume_status for_pixels(const brume_plugin_rows &call, int32_t first, int32_t last, Function function)
 {
-    return services.rows(
-        host, pass, count, grain,
-        [](void *user, int32_t first, int32_t last) {
-            (*static_cast<Function *>(user))(first, last);
-            return brume_status(BRUME_OK);
-        },
-        &function);
-}
-
-// function(y) for each row, on all threads.
-template <class Function>
-brume_status for_rows(const brume_services &services, brume_host host, const char *pass, int count, int grain,
-                      Function function)
-{
-    return for_ranges(services, host, pass, count, grain, [&](int first, int last) {
-        for (int y = first; y < last; ++y)
-            function(y);
-    });
+    for (int32_t y = first; y < last; ++y)
+        for (int32_t x = 0; x < call.width; ++x)
+            function(x, y);
+    return BRUME_OK;
 }
 
 }  // namespace brume_pixels
