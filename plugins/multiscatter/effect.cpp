@@ -18,7 +18,8 @@ constexpr double least_optical_depth = 1e-4;
 class Planner {
 public:
     Planner(const brume_services &services, brume_host host, const brume_plugin_request &request)
-        : services_(services), host_(host), request_(request)
+        : services_(services), host_(host), request_(request),
+          layered_(services.made(host, "density_rgb") != BRUME_MADE_NOWHERE)
     {
     }
 
@@ -41,6 +42,7 @@ private:
         return services_.create_image(host_, label, width, height, channels, &out);
     }
 
+    bool wants_output() const;
     double largest_optical_depth() const;
     brume_status need_camera(bool scatters);
     brume_status plan_levels(State &state);
@@ -51,7 +53,13 @@ private:
     const brume_services &services_;
     brume_host host_;
     const brume_plugin_request &request_;
+    const bool layered_;  // the caller gives the density
 };
+
+bool Planner::wants_output() const
+{
+    return std::any_of(request_.layers, request_.layers + request_.layer_count, [](uint32_t wanted) { return wanted != 0; });
+}
 
 bool any(const float (&v)[3])
 {
@@ -66,7 +74,7 @@ brume_status Planner::need_camera(bool scatters)
     if (brume_status s =
             need(scatters, BRUME_CAMERA_FIELD_OF_VIEW, "the blur's width in pixels follows from the field of view"))
         return s;
-    if (brume_status s = need(request_.scene->camera.depth_kind != BRUME_DEPTH_RAY, BRUME_CAMERA_FIELD_OF_VIEW,
+    if (brume_status s = need(request_.scene->camera->depth_kind != BRUME_DEPTH_RAY, BRUME_CAMERA_FIELD_OF_VIEW,
                               "the depth is planar and the field of view turns it into distance along the ray"))
         return s;
     return need(request_.pose_matters != 0, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
@@ -76,9 +84,9 @@ brume_status Planner::need_camera(bool scatters)
 // Of all that a frame can show; infinite where that has no end.
 double Planner::largest_optical_depth() const
 {
-    const auto &m = request_.scene->medium;
-    const auto &c = request_.scene->camera;
-    if (m.term_count > 0 || request_.scene->gaussian_count > 0 || c.sky == BRUME_SKY_FOG)
+    const brume_plugin_medium &m = *request_.scene->medium;
+    const brume_plugin_camera &c = *request_.scene->camera;
+    if (layered_ || m.term_count > 0 || request_.scene->gaussian_count > 0 || c.sky == BRUME_SKY_FOG)
         return INFINITY;
     double extinction = 0;
     for (int i = 0; i < 3; ++i)
@@ -117,8 +125,8 @@ brume_status Planner::plan_pyramid(State &state)
         if (!s && state.parameters.kernel == Kernel::calibrated)
             s = plan_calibrated(services_, host_, request_, state);
     }
-    if (!s && request_.backend == BRUME_BACKEND_GL)
-        s = compile_programs(services_, host_, request_.outputs, state);
+    if (!s && (state.top == 0 || state.parameters.kernel == Kernel::paper))
+        s = plan_paper_passes(services_, host_, state);
     return s;
 }
 
@@ -176,19 +184,19 @@ brume_status Planner::plan_paper(State &state)
 
 brume_status Planner::plan(std::unique_ptr<State> &out)
 {
-    const auto &m = request_.scene->medium;
+    const brume_plugin_medium &m = *request_.scene->medium;
     bool scatters = any(m.scattering);
     bool absorbs = any(m.absorption);
     bool emits = any(m.emission);
-    bool dense = m.constant > 0 || m.term_count > 0 || request_.scene->gaussian_count > 0;
+    bool dense = layered_ || m.constant > 0 || m.term_count > 0 || request_.scene->gaussian_count > 0;
     if (!request_.scene->has_medium)
         return drop("multiscatter", "the scene has no medium");
     if (!dense || !(scatters || absorbs || emits)) {
-        if (request_.outputs == 0)
+        if (!wants_output())
             return drop("multiscatter", dense ? "the medium neither scatters, absorbs nor emits"
                                               : "the medium's density is zero everywhere");
     }
-    if (const double tau = largest_optical_depth(); tau < least_optical_depth && !emits && request_.outputs == 0) {
+    if (const double tau = largest_optical_depth(); tau < least_optical_depth && !emits && !wants_output()) {
         char reason[120];
         snprintf(reason, sizeof reason, "the optical depth is at most %.1e, which is less than %.0e", tau,
                  least_optical_depth);
@@ -199,24 +207,24 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->width = request_.width;
     state->height = request_.height;
     state->reduction = state->parameters.kernel == Kernel::calibrated ? state->parameters.reduction : 1;
-    state->beside_lights = request_.lights_scatter != 0;
+    state->beside_lights = services_.made(host_, "single_scattering") != BRUME_MADE_NOWHERE;
+    state->layered = layered_;
+    for (uint32_t i = 0; i < layer_count; ++i)
+        state->outputs |= request_.layers[i] ? 1u << i : 0;
     brume_status s = dense ? need_camera(scatters) : BRUME_OK;
     if (s)
         return s;
     const Kernel kernel = state->parameters.kernel;
     if (kernel == Kernel::reference || kernel == Kernel::paper_reference) {
-        if (request_.backend != BRUME_BACKEND_CPU)
-            return services_.fail(host_, BRUME_ERROR_UNSUPPORTED,
-                                  "kernel: reference or paper_reference; expected calibrated or paper on the GL backend "
-                                  "(the references are exact, in "
-                                  "double, on the CPU)");
         s = run("reference", "every pixel's light to every other, in double", 52, 30.0 * request_.width * request_.height);
+        if (!s)
+            s = plan_reference_passes(services_, host_, *state);
     } else if (!scatters) {
         s = drop("pyramid", "the medium does not scatter: nothing to blur");
         if (!s)
             s = run("compose", "attenuates and adds the medium's own light", 16 + 4 + 16, 100);
-        if (!s && request_.backend == BRUME_BACKEND_GL)
-            s = compile_programs(services_, host_, request_.outputs, *state);
+        if (!s)
+            s = plan_paper_passes(services_, host_, *state);
     } else {
         s = plan_pyramid(*state);
     }
@@ -238,10 +246,9 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
     State &state = *static_cast<State *>(opaque);
     if (state.table)
         return execute_calibrated(*services, host, state, *frame);
-    const Kernel kernel = state.parameters.kernel;
-    if (kernel == Kernel::reference || kernel == Kernel::paper_reference)
+    if (state.find_sources)
         return execute_reference(*services, host, state, *frame);
-    return state.compose ? execute_gl(*services, host, state, *frame) : execute_cpu(*services, host, state, *frame);
+    return execute_paper(*services, host, state, *frame);
 }
 
 }  // namespace
@@ -256,20 +263,36 @@ int stack_height(int width, int height, int top)
 BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
 {
     using namespace multiscatter;
-    static const brume_effect effect{sizeof(brume_effect),
-                                     BRUME_PLUGIN_ABI,
-                                     "multiscatter",
-                                     "attenuates the image and blurs it by multiple scattering (Iser 2018)",
-                                     100,
-                                     BRUME_THREADS_SAFE,
-                                     BRUME_WANTED_WITH_MEDIUM,
-                                     own_outputs,
-                                     1,
-                                     uint32_t(parameter_table().size()),
-                                     parameter_table().data(),
-                                     plan,
-                                     execute,
-                                     [](void *state) { delete static_cast<State *>(state); },
-                                     offer};
+    static constexpr uint32_t size = sizeof(brume_layer_info);
+    static constexpr brume_layer_info layers[layer_count] = {
+        {size, BRUME_LAYER_OUTPUT, 3, 0, "transmittance", "exp(-tau) of the medium in front of each pixel"},
+        {size, BRUME_LAYER_OUTPUT, 3, 0, "optical_depth", "tau of the medium in front of each pixel"},
+        {size, BRUME_LAYER_OUTPUT, 3, 0, "scattered", "scattered and emitted radiance, which is added to the attenuated image"},
+        {size, BRUME_LAYER_OUTPUT, 1, 0, "blur_radius", "deviation of the blur of each pixel's light, in pixels"}};
+    static constexpr const char *uses[use_count] = {"density", "density_rgb", "gaussian_density", "visible_lights"};
+    static constexpr const char *makes[] = {"attenuated_radiance"};
+    static const brume_effect effect = [] {
+        brume_effect e{};
+        e.struct_size = sizeof e;
+        e.abi = BRUME_PLUGIN_ABI;
+        e.name = "multiscatter";
+        e.help = "attenuates the image and blurs it by multiple scattering (Iser 2018)";
+        e.order = 100;
+        e.thread_safety = BRUME_THREADS_SAFE;
+        e.wanted = BRUME_WANTED_WITH_MEDIUM;
+        e.parameters = parameter_table().data();
+        e.parameter_count = uint32_t(parameter_table().size());
+        e.layers = layers;
+        e.layer_count = layer_count;
+        e.makes = makes;
+        e.make_count = 1;
+        e.uses = uses;
+        e.use_count = use_count;
+        e.plan = plan;
+        e.execute = execute;
+        e.destroy = [](void *state) { delete static_cast<State *>(state); };
+        e.offer = offer;
+        return e;
+    }();
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

@@ -29,9 +29,10 @@ bool scatters(const brume_plugin_medium &m)
 
 }  // namespace
 
-uint32_t offer(const brume_plugin_request *request, uint32_t index, double *parameters, double *error)
+uint32_t offer(const brume_services *services, brume_host host, const brume_plugin_request *request, uint32_t index,
+               double *parameters, double *error)
 {
-    const auto &medium = request->scene->medium;
+    const brume_plugin_medium &medium = *request->scene->medium;
     if (!scatters(medium)) {
         *error = rounding;
         return index == 0;
@@ -49,7 +50,7 @@ uint32_t offer(const brume_plugin_request *request, uint32_t index, double *para
     *error = s.error * std::pow(scattered + 0.003, 0.75) * std::sqrt(detail * 64 / size) *
              std::pow(1.2 - std::max(0.0f, medium.asymmetry), -0.2);
     // Part of what would be scattered is another effect's.
-    if (request->lights_scatter && request->scene->light_count > 0)
+    if (services->made(host, "single_scattering") != BRUME_MADE_NOWHERE && request->scene->light_count > 0)
         *error *= 0.7;
     return 1;
 }

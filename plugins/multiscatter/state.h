@@ -1,16 +1,19 @@
 #pragma once
-#include <memory>
-#include <vector>
+#include <string_view>
 
 #include <brume/brume_plugin.h>
 
+#include "calibrated/spread.h"
 #include "parameters.h"
 #include "scene_maths.hpp"
-#include "spread.h"
 
 namespace multiscatter {
 
-// What one plan of this effect holds. Images that a plan does not need are NULL.
+// The effect's layers and products, in the order of its tables.
+enum Layer : uint32_t { layer_transmittance, layer_optical_depth, layer_scattered, layer_blur_radius, layer_count };
+enum Use : uint32_t { use_density, use_density_rgb, use_gaussian_density, use_visible_lights, use_count };
+
+// What one plan of this effect holds. Images and passes that a plan does not need are NULL.
 struct State {
     Parameters parameters;
     int width = 0;
@@ -18,6 +21,8 @@ struct State {
     int reduction = 1;  // kernel calibrated: side of the square of pixels that is one texel of the pyramid's level 0
     int top = 0;        // K; 0: no pyramid
     bool beside_lights = false;  // another effect adds what the lights scatter once
+    bool layered = false;        // each colour has a density of its own: product density_rgb
+    uint32_t outputs = 0;        // bits by Layer
 
     // Level 0 of a pyramid and, stacked, its levels 1 to K.
     brume_plugin_image radiance = nullptr;  // RGB: L_sc, A: W
@@ -36,44 +41,46 @@ struct State {
     brume_plugin_image table = nullptr;
     SpreadSource tabled;  // what `table` was made of
 
-    brume::maths_float::ivec2 base() const { return brume::maths_float::reduced_size({width, height}, reduction); }
+    brume_pass spread = nullptr, share = nullptr, smooth = nullptr, collect = nullptr;  // of kernel calibrated
+    brume_pass scatter = nullptr, downsample = nullptr;                                  // of kernel paper
+    brume_pass find_sources = nullptr;                                                   // of the references
+    brume_pass compose = nullptr;
 
-    // GL programs; NULL on the CPU.
-    brume_program spread = nullptr;
-    brume_program share = nullptr;
-    brume_program smooth = nullptr;
-    brume_program collect = nullptr;  // NULL unless reduction > 1
-    brume_program scatter = nullptr;
-    brume_program downsample = nullptr;
-    brume_program compose = nullptr;
+    brume::maths_float::ivec2 size() const { return {width, height}; }
+    brume::maths_float::ivec2 base() const { return brume::maths_float::reduced_size(size(), reduction); }
 };
 
-// The passes of kernel `paper` on either backend, and of the references on the CPU. They return the first failure.
-brume_status execute_cpu(const brume_services &services, brume_host host, const State &state,
-                         const brume_plugin_frame &frame);
-brume_status execute_gl(const brume_services &services, brume_host host, const State &state,
-                        const brume_plugin_frame &frame);
-brume_status execute_reference(const brume_services &services, brume_host host, const State &state,
-                               const brume_plugin_frame &frame);
+// An image of a product that may have none.
+inline brume_plugin_image image_of(const brume_plugin_frame &frame, Use use)
+{
+    return frame.products[use].image_count ? frame.products[use].images[0] : nullptr;
+}
 
-// Kernel `calibrated`.
+std::string_view pass_text(std::string_view name);
+
+// Each kernel's plan adds its passes after its images are there. They return the first failure.
 brume_status plan_calibrated(const brume_services &services, brume_host host, const brume_plugin_request &request,
                              State &state);
 brume_status execute_calibrated(const brume_services &services, brume_host host, State &state,
                                 const brume_plugin_frame &frame);
-brume_status compile_calibrated(const brume_services &services, brume_host host, State &state);
+
+// Kernel `paper`; also what is left of a plan that has no pyramid.
+brume_status plan_paper_passes(const brume_services &services, brume_host host, State &state);
+brume_status execute_paper(const brume_services &services, brume_host host, const State &state,
+                           const brume_plugin_frame &frame);
+
+// Kernels `reference` and `paper_reference`.
+brume_status plan_reference_passes(const brume_services &services, brume_host host, State &state);
+brume_status execute_reference(const brume_services &services, brume_host host, const State &state,
+                               const brume_plugin_frame &frame);
 
 // As brume_effect.
-uint32_t offer(const brume_plugin_request *request, uint32_t index, double *parameters, double *error);
-
-brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state);
-
-// What of BRUME_OUTPUT_... this effect fills.
-constexpr uint32_t own_outputs =
-    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS;
+uint32_t offer(const brume_services *services, brume_host host, const brume_plugin_request *request, uint32_t index,
+               double *parameters, double *error);
 
 // The filter of one frame: its K is the plan's, or the level of the widest blur that the frame's medium and camera allow.
-brume::maths_float::Filter filter_of(const State &state, const brume_plugin_scene &scene);
+// visible_lights: how many.
+brume::maths_float::Filter filter_of(const State &state, const brume_plugin_scene &scene, uint32_t visible_lights);
 
 // Rows of the image that holds levels 1 to K.
 int stack_height(int width, int height, int top);

@@ -392,7 +392,7 @@ void brume_host_t::take_offers(PlannedEffect &planned, brume_plugin_request requ
         Offer offer{planned.parameters, 0};
         request.parameters = planned.parameters.data();
         try {
-            if (!planned.effect->offer(&request, i, offer.parameters.data(), &offer.error))
+            if (!planned.effect->offer(&services(), this, &request, i, offer.parameters.data(), &offer.error))
                 return;
         } catch (...) {
             throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in offer");

@@ -12,12 +12,10 @@
 #include "calibrated.glsl"
 
 uniform Medium brume_medium;
-uniform Camera brume_camera;
 uniform Calibrated calibrated;
 uniform int reduction;
 uniform ivec2 image_size;
-uniform sampler2D depth;
-uniform sampler2D gaussian_density;
+uniform sampler2D density;
 uniform sampler2D table;
 uniform sampler2D radiance_stack;
 uniform sampler2D coverage_stack;
@@ -30,10 +28,9 @@ void main()
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
     ivec2 at = representative(p, reduction, image_size);
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, vec2(at) + 0.5, texelFetch(depth, at, 0).r,
-                                  texelFetch(gaussian_density, at, 0).r);
+    vec2 texel = texelFetch(density, at, 0).rg;
     Collected c = collected(brume_medium, calibrated, table, radiance_stack, coverage_stack,
-                            Pyramid(brume_grid, calibrated.top), (vec2(at) + 0.5) / float(reduction), pixel.density);
-    imageStore(radiance, p, vec4(c.radiance, pixel.distance));
+                            Pyramid(brume_grid, calibrated.top), (vec2(at) + 0.5) / float(reduction), texel.x);
+    imageStore(radiance, p, vec4(c.radiance, abs(texel.y)));
     imageStore(coverage, p, vec4(c.coverage, 1.0));
 }

@@ -1,4 +1,5 @@
-// PYRAMID (0 none, 1 kernel paper, 2 kernel calibrated), REDUCTION and OUTPUTS (BRUME_OUTPUT_... flags) are set by the plan.
+// PYRAMID (0 none, 1 kernel paper, 2 kernel calibrated), REDUCTION, LAYERED (each colour has a density of its own) and OUTPUTS
+// (1 transmittance, 2 optical depth, 4 scattered, 8 blur radius) are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "data.glsl"
@@ -28,9 +29,9 @@ uniform sampler2D ambient_stack;
 uniform sampler2D coverage;
 #endif
 uniform float brume_output_limit;
-uniform int outputs;  // those of this frame
 uniform sampler2D color;
-uniform sampler2D depth;
+uniform sampler2D density;
+uniform sampler2D density_rgb;
 uniform sampler2D gaussian_density;
 uniform sampler2D radiance;
 uniform sampler2D radiance_stack;
@@ -38,12 +39,11 @@ uniform sampler2D spread_stack;
 uniform sampler2D separated;
 uniform sampler2D separated_stack;
 writeonly uniform image2D result;
-#if OUTPUTS != 0
+// Those that a frame does not want are not bound.
 writeonly uniform image2D transmittance_out;
 writeonly uniform image2D optical_depth_out;
 writeonly uniform image2D scattered_out;
 writeonly uniform image2D blur_radius_out;
-#endif
 
 void main()
 {
@@ -52,17 +52,19 @@ void main()
         return;
     vec2 centre = vec2(p) + 0.5;
     vec4 source = texelFetch(color, p, 0);
-    float raw_depth = texelFetch(depth, p, 0).r;
-    vec2 gaussians = texelFetch(gaussian_density, p, 0).rg;
-#if PYRAMID == 2
-    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, centre, raw_depth, gaussians.x);
+    vec2 texel = texelFetch(density, p, 0).rg;
+#if LAYERED
+    vec3 each = texelFetch(density_rgb, p, 0).rgb;
+    Pixel pixel = pixel_in_layer(brume_medium, brume_camera, texel, each);
 #else
-    Pixel pixel = placed_pixel(brume_medium, brume_camera, multiscatter, centre, raw_depth, gaussians);
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, texel);
+#endif
+#if PYRAMID != 2
+    pixel = placed_pixel(pixel, brume_medium, brume_camera, multiscatter, centre, texel, texelFetch(gaussian_density, p, 0).g);
 #endif
     vec3 added = pixel.emitted;
 #if PYRAMID == 2
-    vec3 shown =
-        shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, raw_depth, pixel.density);
+    vec3 shown = shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, pixel);
     Pyramid pyramid = Pyramid(reduced_size(brume_grid, REDUCTION), calibrated.top);
     vec2 position = centre / float(REDUCTION);
 #if REDUCTION > 1
@@ -80,14 +82,20 @@ void main()
     added += pixel.share * finite_or_zero(source.rgb);
 #endif
     imageStore(result, p, vec4(compose_radiance(source.rgb, pixel.transmittance, added, brume_output_limit), source.a));
-#if OUTPUTS != 0
-    if ((outputs & 1) != 0)
-        imageStore(transmittance_out, p, vec4(pixel.transmittance, 1.0));
-    if ((outputs & 2) != 0)
-        imageStore(optical_depth_out, p, vec4(optical_depth(brume_medium, pixel.density), 1.0));
-    if ((outputs & 4) != 0)
-        imageStore(scattered_out, p, vec4(added, 1.0));
-    if ((outputs & 8) != 0)
-        imageStore(blur_radius_out, p, vec4(pixel.spread, 0.0, 0.0, 1.0));
+#if (OUTPUTS & 1) != 0
+    imageStore(transmittance_out, p, vec4(pixel.transmittance, 1.0));
+#endif
+#if (OUTPUTS & 2) != 0
+#if LAYERED
+    imageStore(optical_depth_out, p, vec4(optical_depth(brume_medium, each), 1.0));
+#else
+    imageStore(optical_depth_out, p, vec4(optical_depth(brume_medium, pixel.density), 1.0));
+#endif
+#endif
+#if (OUTPUTS & 4) != 0
+    imageStore(scattered_out, p, vec4(added, 1.0));
+#endif
+#if (OUTPUTS & 8) != 0
+    imageStore(blur_radius_out, p, vec4(pixel.spread, 0.0, 0.0, 1.0));
 #endif
 }

@@ -16,7 +16,7 @@ uniform Medium brume_medium;
 uniform Calibrated calibrated;
 uniform int level;
 uniform Level finer;
-uniform int row;  // this level's first
+uniform Level own;
 uniform sampler2D table;
 uniform sampler2D finer_radiance;
 uniform sampler2D finer_coverage;
@@ -31,7 +31,7 @@ void main()
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
     Spreading s = spreading_texel(brume_medium, calibrated, table, finer_radiance, finer_coverage, finer, p, level);
-    ivec2 to = ivec2(p.x, p.y + row);
+    ivec2 to = ivec2(p.x, p.y + own.row);
     imageStore(radiance, to, s.radiance);
     imageStore(coverage, to, vec4(s.coverage, 1.0));
     imageStore(ambient, to, ambient_texel(calibrated, finer_radiance, finer_coverage, finer_ambient, finer, p, level));

@@ -1,3 +1,4 @@
+// LAYERED (each colour has a density of its own) is set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "data.glsl"
@@ -19,8 +20,10 @@ uniform Calibrated calibrated;
 uniform int reduction;
 uniform ivec2 image_size;
 uniform sampler2D color;
-uniform sampler2D depth;
-uniform sampler2D gaussian_density;
+uniform sampler2D density;
+#if LAYERED
+uniform sampler2D density_rgb;
+#endif
 uniform sampler2D lights;
 uniform sampler2D table;
 writeonly uniform image2D radiance;
@@ -34,13 +37,14 @@ void main()
     Square square = square_of(brume_medium, color, p, reduction, image_size);
     ivec2 at = square.brightest;
     vec2 centre = vec2(at) + 0.5;
-    float raw_depth = texelFetch(depth, at, 0).r;
-    Pixel pixel =
-        pixel_in_medium(brume_medium, brume_camera, centre, raw_depth, texelFetch(gaussian_density, at, 0).r);
-    Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share,
-                                   square.color,
-                                   shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, raw_depth,
-                                               pixel.density));
+    vec2 texel = texelFetch(density, at, 0).rg;
+#if LAYERED
+    Pixel pixel = pixel_in_layer(brume_medium, brume_camera, texel, texelFetch(density_rgb, at, 0).rgb);
+#else
+    Pixel pixel = pixel_in_medium(brume_medium, brume_camera, texel);
+#endif
+    Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share, square.color,
+                                   shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, pixel));
     imageStore(radiance, p, s.radiance);
     imageStore(coverage, p, vec4(s.coverage, 1.0));
 }

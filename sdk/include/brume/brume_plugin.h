@@ -365,7 +365,8 @@ typedef struct brume_effect {
   /* NULL, or the settings that a wish for quality chooses from: changes of the request's `parameters` (parameter_count of
      them, copied there) those that setting `index` fixes, and gives the error that 95 of 100 frames are predicted to keep below
      with it, as brume_quality.max_error counts; 0: the effect's reference. Returns 1, or 0 from the first index that is none. */
-  uint32_t (*offer)(const brume_plugin_request *request, uint32_t index, double *parameters, double *error);
+  uint32_t (*offer)(const brume_services *services, brume_host host, const brume_plugin_request *request, uint32_t index,
+                    double *parameters, double *error);
 } brume_effect;
 
 typedef const brume_effect *(*brume_plugin_effect_function)(uint32_t host_abi);

@@ -13,7 +13,7 @@ namespace {
 // absorption.
 double largest_blur(const brume_plugin_scene &scene)
 {
-    const auto &m = scene.medium;
+    const brume_plugin_medium &m = *scene.medium;
     auto mean = [&](const float(&v)[3]) {
         return double(v[0]) * m.luminance[0] + double(v[1]) * m.luminance[1] + double(v[2]) * m.luminance[2];
     };
@@ -22,17 +22,17 @@ double largest_blur(const brume_plugin_scene &scene)
         return 0;
     if (a <= 0)
         return INFINITY;
-    double focal = std::sqrt(double(scene.camera.focal[0]) * scene.camera.focal[1]), p = std::sqrt(6 / (a * kappa));
+    double focal = std::sqrt(double(scene.camera->focal[0]) * scene.camera->focal[1]), p = std::sqrt(6 / (a * kappa));
     return focal * std::sqrt(kappa * p / (8 + 4.0 / 3.0 * a * kappa * p * p));
 }
 
 }  // namespace
 
-Filter filter_of(const State &state, const brume_plugin_scene &scene)
+Filter filter_of(const State &state, const brume_plugin_scene &scene, uint32_t visible_lights)
 {
     Filter f = state.parameters.filter;
     f.top = state.top;
-    f.lights = state.beside_lights ? int(scene.light_count) : 0;
+    f.lights = state.beside_lights ? int(visible_lights) : 0;
     // One level more than the blur asks for, since the cubic interpolation between levels reaches that far.
     double blur = largest_blur(scene) * (f.placement ? std::sqrt(3.0) : 1.0);
     if (std::isfinite(blur))

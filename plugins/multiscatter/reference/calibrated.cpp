@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrated.h"
-#include "reference.h"
+#include "calibrated/passes.h"
+#include "reference/reference.h"
 
 namespace multiscatter {
 namespace {
@@ -75,12 +75,12 @@ Calibrated in_double(const brume::maths_float::Calibrated &f)
 
 void CalibratedSplatting::find_sources(const ReferenceFrame &frame, int first, int last)
 {
-    const Calibrated f = in_double(calibrated_of(frame.state, frame.scene, source_of(frame.state, frame.scene)));
+    const Calibrated f = in_double(calibrated_of(frame.state, frame.scene, source_of(frame.state, frame.scene), uint32_t(frame.light_count)));
     for (int y = first; y < last; ++y)
         for (int x = 0; x < frame.state.width; ++x) {
             const Pixel pixel = frame.pixel_at(x, y);
             const vec3 shown = shown_share(frame.lights.texture(), f.lights, frame.medium, frame.camera,
-                                           vec2(x + 0.5, y + 0.5), frame.depth_at(x, y), pixel.density) *
+                                           vec2(x + 0.5, y + 0.5), pixel) *
                                finite_or_zero(frame.color_at(x, y));
             const double octaves = octaves_of(pixel.density);
             const vec3 share = arrived_share(frame.medium, f, pixel.density, octaves, pixel.share);

@@ -8,6 +8,22 @@
 
 namespace multiscatter {
 
+// Of both passes: the one that finds the sources writes nothing but what belongs to the Splatting.
+namespace reference_pass {
+enum {
+    color,
+    density,
+    density_rgb,
+    gaussian_density,
+    lights,
+    result,
+    transmittance_out,
+    optical_depth_out,
+    scattered_out,
+    blur_radius_out
+};
+}  // namespace reference_pass
+
 // What a reference sees of a frame.
 struct ReferenceFrame {
     const State &state;
@@ -15,12 +31,11 @@ struct ReferenceFrame {
     brume::maths_double::Medium medium;
     brume::maths_double::Camera camera;
     brume::maths_double::Filter filter{};
-    brume_plugin_pixels color{}, depth{}, gaussian_density{}, output{}, transmittance{}, optical_depth{}, scattered{},
-        blur_radius{};
-    brume::maths_double::Data lights;
+    brume::maths_double::Data lights;  // those that can be seen
+    int light_count;
+    const brume_plugin_pixels *slots = nullptr;  // of reference_pass
 
     brume::maths_double::vec3 color_at(int x, int y) const;
-    double depth_at(int x, int y) const;
     brume::maths_double::Pixel pixel_at(int x, int y) const;
     size_t index(int x, int y) const { return size_t(y) * size_t(state.width) + size_t(x); }
 };
