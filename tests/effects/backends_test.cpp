@@ -106,6 +106,13 @@ TEST(Threads, AnyNumberGivesTheSameBits)
     }
     auto again = run(cpu(), scene(media[0], "\"separation\":true"), f.color, f.depth);
     EXPECT_EQ(one.output.data, again.output.data);
+}
+
+#ifdef BRUME_GL
+TEST(GpuAgainstItself, GivesTheSameBits)
+{
+    Frame f = random_frame(123, 77, 3);
     EXPECT_EQ(run(gpu(), scene(media[1]), f.color, f.depth).output.data,
               run(gpu(), scene(media[1]), f.color, f.depth).output.data);
 }
+#endif
