@@ -3,9 +3,13 @@ include(CMakePackageConfigHelpers)
 install(TARGETS brume EXPORT brume-targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
 install(DIRECTORY sdk/include/brume DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+# The maths, for effects that compute as these do: GLSL that is C++ too, in brume/maths/, target brume::maths.
+file(GLOB maths CONFIGURE_DEPENDS shaders/*.hpp shaders/*.inc)
+install(FILES ${maths} LICENSE DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/brume/maths COMPONENT development)
+install(DIRECTORY shaders/lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/brume/maths COMPONENT development)
 install(EXPORT brume-targets NAMESPACE brume:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume COMPONENT development)
 configure_package_config_file(cmake/brume-config.cmake.in ${CMAKE_BINARY_DIR}/brume-config.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume)
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/brume-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/brume-config.cmake ${CMAKE_BINARY_DIR}/brume-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume COMPONENT development)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // shaders/lib for several pixels of a row side by side, which is what the CPU runs where a pass costs most:
 // brume::lanes_generic for every machine, brume::lanes_avx2 for those of which runs_avx2() is true. Loops that use them are

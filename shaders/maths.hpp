@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // shaders/lib as C++: brume::maths_float is what the CPU backend runs, brume::maths_double the yardstick of the tests.
 #include <bit>

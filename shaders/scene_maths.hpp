@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The scene that effects are given, as the maths' types in either precision.
 #pragma once
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include "api/backends.h"
 #include "api/handles.h"
 #include "api/structs.h"
 #include "core/calibration.h"
@@ -103,7 +104,7 @@ brume_status brume_context_create(const brume_context_desc *given, brume_context
         expect(desc.threads <= 1024, "threads: expected 0 to 1024");
         expect(desc.log_level >= BRUME_LOG_ERROR && desc.log_level <= BRUME_LOG_DEBUG,
                "log_level: expected a BRUME_LOG_...");
-        *out = new brume_context_t{create_context(desc)};
+        *out = new brume_context_t{create_context(desc, make_backend)};
     });
 }
 

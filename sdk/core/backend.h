@@ -91,17 +91,6 @@ public:
                              int32_t height, const brume_plugin_scene &scene, void *user) = 0;
 };
 
-struct GlOptions {
-    bool borrowed = false;
-    uint32_t state = BRUME_GL_STATE_PRESERVE;
-};
-
 std::unique_ptr<Backend> make_cpu_backend(uint32_t threads);
-
-// Throws Error(BRUME_ERROR_GL) that names the step that failed.
-std::unique_ptr<Backend> make_gl_backend(const GlOptions &options, const Log &log);
-
-// For BRUME_BACKEND_AUTO: a real GPU is there (for borrowed: the current context is one and is 4.5 or later).
-bool gl_is_hardware(const GlOptions &options);
 
 }  // namespace brume

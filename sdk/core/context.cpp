@@ -22,13 +22,6 @@ std::string own_plugin_directory()
     return error ? std::string() : (file.parent_path() / "brume").string();
 }
 
-std::unique_ptr<Backend> create_backend(const brume_context_desc &desc, const Log &log)
-{
-    GlOptions gl{desc.gl_context == BRUME_GL_BORROWED, desc.gl_state};
-    bool use_gl = desc.backend == BRUME_BACKEND_GL || (desc.backend == BRUME_BACKEND_AUTO && gl_is_hardware(gl));
-    return use_gl ? make_gl_backend(gl, log) : make_cpu_backend(desc.threads);
-}
-
 }  // namespace
 
 uint64_t Context::new_id()
@@ -37,11 +30,11 @@ uint64_t Context::new_id()
     return ++last;
 }
 
-std::shared_ptr<Context> create_context(const brume_context_desc &desc)
+std::shared_ptr<Context> create_context(const brume_context_desc &desc, MakeBackend make_backend)
 {
     auto context = std::make_shared<Context>();
     context->log = {desc.log, desc.log_user, desc.log_level};
-    context->backend = create_backend(desc, context->log);
+    context->backend = make_backend(desc, context->log);
     context->device = context->backend->device();
     std::vector<std::string> directories{own_plugin_directory()};
     if (desc.plugin_directory) {

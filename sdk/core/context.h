@@ -22,7 +22,9 @@ private:
     static uint64_t new_id();
 };
 
+using MakeBackend = std::unique_ptr<Backend> (*)(const brume_context_desc &desc, const Log &log);
+
 // Makes the backend asked for and loads the effects; throws Error.
-std::shared_ptr<Context> create_context(const brume_context_desc &desc);
+std::shared_ptr<Context> create_context(const brume_context_desc &desc, MakeBackend make_backend);
 
 }  // namespace brume

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "core/backend.h"
 #include "gl/current_context.h"
+#include "gl/gl_backend.h"
 #include "gl/gl_thread.h"
 #include "gl/state_guard.h"
 

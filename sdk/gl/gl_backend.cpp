@@ -4,11 +4,11 @@
 
 #include <epoxy/gl.h>
 
-#include "core/backend.h"
 #include "core/error.h"
 #include "core/half.h"
 #include "gl/convert.h"
 #include "gl/device.h"
+#include "gl/gl_backend.h"
 #include "gl/host_texture.h"
 #include "gl/image.h"
 #include "gl/pass.h"

@@ -54,3 +54,14 @@ endif()
 build(third_party_plugin ${SOURCE}/samples/third_party_plugin)
 build(load_effect ${SOURCE}/tests/abi/installed)
 run(${WORK}/load_effect/load_effect ${sdk} ${WORK}/third_party_plugin)
+run(${WORK}/load_effect/use_maths)
+
+# The maths are vector extensions and pragmas too: the other compiler takes them as they are.
+find_program(CLANG NAMES clang++-16 clang++-17 clang++-18 clang++-19)
+if(CLANG)
+  run(${CLANG} -std=c++20 -Wall -Wextra -Werror -I${sdk}/include ${SOURCE}/tests/abi/installed/use_maths.cpp
+    -o ${WORK}/use_maths_clang -lm)
+  run(${WORK}/use_maths_clang)
+  file(WRITE ${WORK}/lanes.cpp "#include <brume/maths/lanes.hpp>\n")
+  run(${CLANG} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I${sdk}/include ${WORK}/lanes.cpp)
+endif()

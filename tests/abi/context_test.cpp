@@ -32,6 +32,17 @@ TEST(Context, DefaultsWithoutADescription)
     EXPECT_GE(info.threads, 1u);
 }
 
+#ifndef BRUME_GL
+TEST(Context, SaysThatTheBuildHasNoGl)
+{
+    brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
+    desc.backend = BRUME_BACKEND_GL;
+    brume_context context = nullptr;
+    expect_status(nullptr, brume_context_create(&desc, &context), BRUME_ERROR_GL, "this build has no OpenGL backend");
+    EXPECT_EQ(context, nullptr);
+}
+#endif
+
 TEST(Context, CpuInfo)
 {
     Context context = make_context(BRUME_BACKEND_CPU, 3);

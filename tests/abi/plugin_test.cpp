@@ -207,6 +207,7 @@ TEST_F(Strangers, RunInOrderAfterOurs)
     expect_same_bits(expected, output);
 }
 
+#ifdef BRUME_GL
 TEST(ThirdParty, CpuOnlyEffectOnGlSaysSo)
 {
     Context context;
@@ -220,3 +221,4 @@ TEST(ThirdParty, CpuOnlyEffectOnGlSaysSo)
     brume_plan plan = nullptr;
     expect_status(context.get(), brume_plan_create(scene.get(), &format, &plan), BRUME_ERROR_UNSUPPORTED, "CPU only");
 }
+#endif

@@ -96,8 +96,13 @@ protected:
     void SetUp() override;
     Context context;
 };
+#ifdef BRUME_GL
+inline constexpr uint32_t backends[] = {BRUME_BACKEND_CPU, BRUME_BACKEND_GL};
+#else
+inline constexpr uint32_t backends[] = {BRUME_BACKEND_CPU};
+#endif
 #define INSTANTIATE_EACH_BACKEND(suite)                                                                                     \
-    INSTANTIATE_TEST_SUITE_P(, suite, testing::Values(BRUME_BACKEND_CPU, BRUME_BACKEND_GL),                                 \
+    INSTANTIATE_TEST_SUITE_P(, suite, testing::ValuesIn(client::backends),                                                  \
                              [](auto &info) { return std::string(info.param == BRUME_BACKEND_GL ? "gl" : "cpu"); })
 
 }  // namespace client

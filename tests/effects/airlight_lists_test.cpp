@@ -16,7 +16,7 @@ protected:
     brume_context context() { return backend(GetParam()); }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, ListsOn, testing::Values("cpu", "gl"), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, ListsOn, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
 
 // int rho dt of each pixel between the sum over those that matter and that over all.
 void hold_optical_depth(brume_context context, const Json &scene, int width, int height, const Window &window,

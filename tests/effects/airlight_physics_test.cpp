@@ -18,7 +18,7 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, AirlightPhysics, testing::Values("cpu", "gl"),
+INSTANTIATE_TEST_SUITE_P(All, AirlightPhysics, testing::ValuesIn(fog::backend_names),
                          [](auto &info) { return std::string(info.param); });
 
 Json with_airlight(Json scene, const char *parameter, const Json &value)

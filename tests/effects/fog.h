@@ -74,6 +74,13 @@ inline Context &cpu()
     return context;
 }
 
+// What tests of every backend are instantiated with.
+#ifdef BRUME_GL
+inline constexpr const char *backend_names[] = {"cpu", "gl"};
+#else
+inline constexpr const char *backend_names[] = {"cpu"};
+#endif
+
 inline Context *gl()
 {
     static std::unique_ptr<Context> context = [] {

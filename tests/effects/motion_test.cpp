@@ -274,4 +274,4 @@ TEST(Overscan, ALampThatLeaves)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Motion, testing::Values("cpu", "gl"), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, Motion, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });

@@ -71,6 +71,7 @@ TEST(Noise, StaysWhereItIsInTheWorld)
     EXPECT_LT(largest_difference(straight, unmoved), 1e-3) << "it repeats after 256 lattice points";
 }
 
+#ifdef BRUME_GL
 TEST(Noise, GpuAsCpu)
 {
     if (!fog::gl())
@@ -78,6 +79,7 @@ TEST(Noise, GpuAsCpu)
     const fog::Worst worst = fog::compare(depths(*fog::gl(), noisy(strong)), depths(fog::cpu(), noisy(strong)), 1e-3);
     EXPECT_LT(worst.error, 2e-4) << worst.describe();
 }
+#endif
 
 TEST(Noise, IsContinuousAndWithinItsBounds)
 {

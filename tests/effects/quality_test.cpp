@@ -130,7 +130,8 @@ std::string faults_of_calibration(bool on_gl)
 // others do on the machine meanwhile makes a calibration wrong for what comes after, but hardly three times in a row.
 TEST(Quality, CalibrationIsQuickAndPredictsWithinAFactor)
 {
-    for (bool on_gl : {false, true}) {
+    for (const std::string name : backend_names) {
+        const bool on_gl = name == "gl";
         std::string faults = faults_of_calibration(on_gl);
         for (int again = 0; again < 2 && !faults.empty(); ++again)
             faults = faults_of_calibration(on_gl);

@@ -181,7 +181,7 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
         const std::string clear = folder / (std::string(name) + "_clear.exr");
         const Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}),
                       truth = read_exr(file + ".exr", {"R", "G", "B"});
-        for (const char *where : {"cpu", "gl"}) {
+        for (const char *where : backend_names) {
             const Picture got =
                 run(backend(where), scene.dump(), color, depth, Options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR}).output;
             const double error = rel_mse(got, truth), ratio = energy(got, truth);

@@ -156,7 +156,7 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Extremes, Table, testing::Values("cpu", "gl"), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Extremes, Table, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
 
 }  // namespace
 

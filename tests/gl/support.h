@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/backend.h"
 #include "core/error.h"
+#include "gl/gl_backend.h"
 #include "host_context.h"
 
 namespace brume::test {

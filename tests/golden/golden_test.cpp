@@ -132,6 +132,7 @@ TEST_P(GoldenTest, Cpu)
     hold(run(cpu(), text_of(GetParam()), input().color, input().depth).output, "cpu", 2e-5);
 }
 
+#ifdef BRUME_GL
 TEST_P(GoldenTest, Gl)
 {
     if (renewing || std::strcmp(GetParam().name, "reference") == 0)
@@ -140,6 +141,7 @@ TEST_P(GoldenTest, Gl)
         throw std::runtime_error("no GL backend");
     hold(run(*gl(), text_of(GetParam()), input().color, input().depth).output, "gl", 1e-2);
 }
+#endif
 
 INSTANTIATE_TEST_SUITE_P(Street, GoldenTest, testing::ValuesIn(goldens), [](auto &info) { return info.param.name; });
 
