@@ -25,31 +25,34 @@ constexpr uint32_t most_extras = uint32_t(std::popcount(known_outputs)) - 1 + BR
 brume_format read_format(const brume_format *given)
 {
     brume_format format = BRUME_FORMAT_INIT;
-    format =
-        read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height, &brume_format::display_x,
-                    &brume_format::display_y, &brume_format::display_width, &brume_format::display_height,
-                    &brume_format::depth_kind, &brume_format::depth_range, &brume_format::far_distance, &brume_format::sky,
-                    &brume_format::outputs, &brume_format::sky_distance, &brume_format::nonpositive);
-    expect(format.width >= 1 && format.width <= 65536, "brume_format.width: expected 1 to 65536");
-    expect(format.height >= 1 && format.height <= 65536, "brume_format.height: expected 1 to 65536");
+    format = read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height,
+                         &brume_format::display_x, &brume_format::display_y, &brume_format::display_width,
+                         &brume_format::display_height, &brume_format::depth_kind, &brume_format::depth_range,
+                         &brume_format::far_distance, &brume_format::sky, &brume_format::outputs,
+                         &brume_format::sky_distance, &brume_format::nonpositive, &brume_format::reserved);
+    expect(format.width >= 1 && format.width <= 65536, "brume_format.width", format.width, "1 to 65536");
+    expect(format.height >= 1 && format.height <= 65536, "brume_format.height", format.height, "1 to 65536");
     expect(format.display_width >= 0 && format.display_height >= 0 &&
                (format.display_width == 0) == (format.display_height == 0),
-           "brume_format.display_width, display_height: expected both positive, or both 0");
-    expect(format.depth_kind <= BRUME_DEPTH_DEVICE, "brume_format.depth_kind: expected a BRUME_DEPTH_...");
-    expect(format.sky <= BRUME_SKY_CLAMP, "brume_format.sky: expected a BRUME_SKY_...");
-    expect(format.nonpositive <= BRUME_NONPOSITIVE_NEAR, "brume_format.nonpositive: expected a BRUME_NONPOSITIVE_...");
-    expect((format.outputs & ~known_outputs) == 0, "brume_format.outputs: expected BRUME_OUTPUT_... flags");
-    expect(format.far_distance > 0, "brume_format.far_distance: expected a positive number");
+           "brume_format.display_width, display_height", fmt::format("{}, {}", format.display_width, format.display_height),
+           "both positive, or both 0");
+    expect(format.depth_kind <= BRUME_DEPTH_DEVICE, "brume_format.depth_kind", format.depth_kind, "a BRUME_DEPTH_...");
+    expect(format.sky <= BRUME_SKY_CLAMP, "brume_format.sky", format.sky, "a BRUME_SKY_...");
+    expect(format.nonpositive <= BRUME_NONPOSITIVE_NEAR, "brume_format.nonpositive", format.nonpositive,
+           "a BRUME_NONPOSITIVE_...");
+    expect((format.outputs & ~known_outputs) == 0, "brume_format.outputs", format.outputs, "BRUME_OUTPUT_... flags");
+    expect(format.reserved == 0, "brume_format.reserved", format.reserved, "0");
+    expect(format.far_distance > 0, "brume_format.far_distance", format.far_distance, "a positive number");
+    const auto &range = format.depth_range;
+    const std::string given_range = fmt::format("{}, {}", range[0], range[1]);
     bool device = format.depth_kind == BRUME_DEPTH_DEVICE;
     if (device || format.depth_kind == BRUME_DEPTH_NORMALIZED)
-        for (double end : format.depth_range)
-            expect(device ? end > 0 : end >= 0 && std::isfinite(end),
-                   device ? "brume_format.depth_range: expected two positive distances (one may be infinite)"
-                          : "brume_format.depth_range: expected two finite distances of 0 or more");
-    expect(!device || format.depth_range[0] != format.depth_range[1],
-           "brume_format.depth_range: expected two different distances");
+        for (double end : range)
+            expect(device ? end > 0 : end >= 0 && std::isfinite(end), "brume_format.depth_range", given_range,
+                   device ? "two positive distances (one may be infinite)" : "two finite distances of 0 or more");
+    expect(!device || range[0] != range[1], "brume_format.depth_range", given_range, "two different distances");
     expect(format.sky != BRUME_SKY_CLAMP || (format.sky_distance >= 0 && std::isfinite(format.sky_distance)),
-           "brume_format.sky_distance: expected a finite distance of 0 or more");
+           "brume_format.sky_distance", format.sky_distance, "a finite distance of 0 or more");
     return format;
 }
 
@@ -156,7 +159,7 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
         brume_frame frame = BRUME_FRAME_INIT;
         frame = read_struct(given, frame, "brume_frame", &brume_frame::extra_count, &brume_frame::color, &brume_frame::depth,
                             &brume_frame::output, &brume_frame::extra, &brume_frame::camera, &brume_frame::frame);
-        expect(std::isfinite(frame.frame), "brume_frame.frame: expected a finite number");
+        expect(std::isfinite(frame.frame), "brume_frame.frame", frame.frame, "a finite number");
         brume_image color = read_image(frame.color, "color");
         brume_image output = read_image(frame.output, "output");
         frame.color = &color;
@@ -172,15 +175,17 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
             frame.camera = &camera;
         }
         if (frame.extra_count > most_extras)
-            throw Error(BRUME_ERROR_ARGUMENT, "brume_frame.extra_count: " + std::to_string(frame.extra_count) +
-                                                  "; expected 0 to " + std::to_string(most_extras));
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        fmt::format("brume_frame.extra_count: {}; expected 0 to {}", frame.extra_count, most_extras));
         expect(frame.extra || frame.extra_count == 0, "brume_frame.extra: NULL with an extra_count above 0");
         std::vector<brume_extra_output> extras(frame.extra_count);
         std::vector<brume_image> images(frame.extra_count);
         for (uint32_t i = 0; i < frame.extra_count; ++i) {
             std::string name = "extra[" + std::to_string(i) + "]";
             extras[i] = read_struct(element(frame.extra, i), brume_extra_output BRUME_EXTRA_OUTPUT_INIT, name.c_str(),
-                                    &brume_extra_output::output, &brume_extra_output::image, &brume_extra_output::light);
+                                    &brume_extra_output::output, &brume_extra_output::image, &brume_extra_output::light,
+                                    &brume_extra_output::reserved);
+            expect(extras[i].reserved == 0, name + ".reserved", extras[i].reserved, "0");
             images[i] = read_image(extras[i].image, (name + ".image").c_str());
             extras[i].image = &images[i];
         }

@@ -288,7 +288,7 @@ void brume_host_t::take_offers(PlannedEffect &planned, brume_plugin_request requ
         }
         if (!std::isfinite(offer.error) || offer.error < 0)
             throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": offer " + std::to_string(i) +
-                                                " predicts an error of " + std::to_string(offer.error) +
+                                                " predicts an error of " + fmt::format("{}", offer.error) +
                                                 "; expected a finite one of 0 or more");
         planned.offers.push_back(std::move(offer));
     }

@@ -107,7 +107,7 @@ private:
 class CpuBackend : public Backend {
 public:
     explicit CpuBackend(uint32_t threads)
-        : threads_(threads ? threads : most_threads()), arena_(int(std::min(threads_, most_threads())))
+        : threads_(threads ? std::min(threads, most_threads()) : most_threads()), arena_(int(threads_))
     {
     }
 

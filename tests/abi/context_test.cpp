@@ -34,14 +34,21 @@ TEST(Context, DefaultsWithoutADescription)
 
 TEST(Context, CpuInfo)
 {
-    Context context = make_context(BRUME_BACKEND_CPU, 3);
+    Context context = make_context(BRUME_BACKEND_CPU, 1);
     brume_context_info info = BRUME_CONTEXT_INFO_INIT;
     ASSERT_EQ(brume_context_get_info(context.get(), &info), BRUME_OK);
     EXPECT_EQ(info.backend, BRUME_BACKEND_CPU);
     EXPECT_STREQ(info.device, "CPU");
-    EXPECT_EQ(info.threads, 3u);
+    EXPECT_EQ(info.threads, 1u);
     EXPECT_EQ(info.device_bytes, 0u);
     EXPECT_EQ(info.struct_size, sizeof info);
+
+    // Not those asked for but those that run.
+    Context all = make_context(BRUME_BACKEND_CPU, 0), too_many = make_context(BRUME_BACKEND_CPU, 1000);
+    ASSERT_EQ(brume_context_get_info(all.get(), &info), BRUME_OK);
+    const uint32_t most = info.threads;
+    ASSERT_EQ(brume_context_get_info(too_many.get(), &info), BRUME_OK);
+    EXPECT_EQ(info.threads, most);
 }
 
 TEST(Context, RefusesNonsense)

@@ -124,7 +124,7 @@ BRUME_API void brume_context_destroy(brume_context context);
 typedef struct brume_context_info {
   uint32_t struct_size;
   uint32_t backend;       /* the one in use: BRUME_BACKEND_CPU or _GL */
-  uint32_t threads;
+  uint32_t threads;       /* that work at most: those asked for, or all the process may use where those are fewer */
   uint32_t reserved;
   uint64_t host_bytes;    /* image memory held now, pools included */
   uint64_t device_bytes;
