@@ -190,7 +190,10 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
             extras[i].image = &images[i];
         }
         frame.extra = extras.data();
+        Progress &progress = handle->context->progress;
+        progress.begin();
         plan.execute(frame);
+        progress.end();
     });
 }
 

@@ -41,6 +41,7 @@ std::shared_ptr<Context> create_context(const brume_context_desc &desc)
 {
     auto context = std::make_shared<Context>();
     context->log = {desc.log, desc.log_user, desc.log_level};
+    context->progress = {desc.progress, desc.progress_user};
     context->backend = create_backend(desc, context->log);
     context->device = context->backend->device();
     std::vector<std::string> directories{own_plugin_directory()};

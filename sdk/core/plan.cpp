@@ -1,9 +1,13 @@
 #include "core/plan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cfloat>
 #include <cmath>
+#include <thread>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/plugin_lock.h"
@@ -43,6 +47,41 @@ std::string output_names(uint32_t outputs)
         if (outputs & (1u << i))
             text += (text.empty() ? "" : ", ") + std::string(names[i]);
     return text;
+}
+
+// Rows that the thread of the API call tells of between the blocks that it takes itself.
+struct WatchedRows {
+    brume_rows_function function;
+    void *user;
+    int32_t count;
+    Progress &progress;
+    double from, to;
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<int32_t> done = 0;
+    std::atomic<bool> cancelled = false;
+
+    static brume_status run(void *watched, int32_t first, int32_t last)
+    {
+        auto &w = *static_cast<WatchedRows *>(watched);
+        if (w.cancelled)
+            return BRUME_ERROR_CANCELLED;
+        const brume_status status = w.function(w.user, first, last);
+        const int32_t done = w.done += last - first;
+        if (std::this_thread::get_id() == w.caller && !w.progress.report(w.from + (w.to - w.from) * done / w.count))
+            w.cancelled = true;
+        return status;
+    }
+};
+
+// Media of which this is false cannot be seen, however dense.
+bool renders(const Medium &medium)
+{
+    const auto any = [](const Number3 &numbers) {
+        return std::any_of(numbers.begin(), numbers.end(), [](const Number &number) {
+            return std::any_of(number.keys.begin(), number.keys.end(), [](auto &key) { return key.second != 0; });
+        });
+    };
+    return medium.visibility || any(medium.scattering) || any(medium.absorption) || any(medium.emission);
 }
 
 }  // namespace
@@ -378,12 +417,26 @@ void brume_host_t::run(const brume_plugin_pass &pass)
     context_->backend->run(pass, *current_scene_);
 }
 
+double brume_host_t::share_before(int entry) const
+{
+    double before = 0, all = 0;
+    for (int i = 0; i < int(entries_.size()); ++i) {
+        all += entries_[size_t(i)].predicted_ms;
+        before += i < entry ? entries_[size_t(i)].predicted_ms : 0;
+    }
+    return all > 0 ? before / all : 0;
+}
+
 brume_status brume_host_t::rows(const char *name, int32_t count, int32_t grain, brume_rows_function function, void *user)
 {
     if (!function || count < 0 || grain < 1)
         throw Error(BRUME_ERROR_ARGUMENT, "rows: function NULL, count below 0 or grain below 1");
-    timer_->mark(entry_index(name));
-    return context_->backend->rows(count, grain, function, user);
+    const int entry = entry_index(name);
+    timer_->mark(entry);
+    if (!context_->progress.wanted())
+        return context_->backend->rows(count, grain, function, user);
+    WatchedRows watched{function, user, count, context_->progress, share_before(entry), share_before(entry + 1)};
+    return context_->backend->rows(count, grain, WatchedRows::run, &watched);
 }
 
 brume_plugin_image brume_host_t::upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels)

@@ -91,6 +91,7 @@ private:
     int64_t copy_frame(const brume_frame &frame);
     void check_frame(const brume_frame &frame) const;
     int entry_index(const char *name) const;
+    double share_before(int entry) const;  // of the frame's predicted time
     [[noreturn]] void effect_failed(const brume::Effect &effect, const char *callback, brume_status status) const;
 
     std::shared_ptr<brume::Context> context_;

@@ -154,8 +154,10 @@ int64_t brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_s
     current_scene_ = &scene;
     current_ = nullptr;
     failure_.clear();
-    if (brume_status status = scene_images_.execute(*this, seen))
+    if (brume_status status = scene_images_.execute(*this, seen)) {
+        context_->progress.throw_if_cancelled();
         throw Error(status, failure_);
+    }
     Image *input = color.get();
     for (size_t i = 0; i < running.size(); ++i) {
         seen.color = input;
@@ -173,6 +175,7 @@ int64_t brume_host_t::run_effects(const brume_frame &frame, const brume_plugin_s
         } catch (...) {
             throw Error(BRUME_ERROR_PLUGIN, running[i]->effect->name + ": threw in execute");
         }
+        context_->progress.throw_if_cancelled();
         if (status != BRUME_OK)
             effect_failed(*running[i]->effect, "execute", status);
         input = seen.output;

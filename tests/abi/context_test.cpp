@@ -16,7 +16,8 @@ TEST(Status, NamesAreTheMacros)
     EXPECT_STREQ(brume_status_name(BRUME_ERROR_ARGUMENT), "BRUME_ERROR_ARGUMENT");
     EXPECT_STREQ(brume_status_name(BRUME_ERROR_CAMERA), "BRUME_ERROR_CAMERA");
     EXPECT_STREQ(brume_status_name(BRUME_ERROR_INTERNAL), "BRUME_ERROR_INTERNAL");
-    for (brume_status unknown : {-1, 11, 4711, INT32_MAX, INT32_MIN})
+    EXPECT_STREQ(brume_status_name(BRUME_ERROR_CANCELLED), "BRUME_ERROR_CANCELLED");
+    for (brume_status unknown : {-1, 12, 4711, INT32_MAX, INT32_MIN})
         EXPECT_STREQ(brume_status_name(unknown), "BRUME_ERROR_UNKNOWN");
 }
 

@@ -15,7 +15,7 @@
 SIZE(brume_status, 4);
 EXPECT((brume_status)-1 < 0);
 
-SIZE(brume_context_desc, 48);
+SIZE(brume_context_desc, 64);
 FIELD(brume_context_desc, struct_size, 0, 4);
 FIELD(brume_context_desc, backend, 4, 4);
 FIELD(brume_context_desc, gl_context, 8, 4);
@@ -25,6 +25,8 @@ FIELD(brume_context_desc, log_level, 20, 4);
 FIELD(brume_context_desc, log, 24, 8);
 FIELD(brume_context_desc, log_user, 32, 8);
 FIELD(brume_context_desc, plugin_directory, 40, 8);
+FIELD(brume_context_desc, progress, 48, 8);
+FIELD(brume_context_desc, progress_user, 56, 8);
 
 SIZE(brume_context_info, 40);
 FIELD(brume_context_info, struct_size, 0, 4);

@@ -67,6 +67,7 @@ typedef int32_t brume_status;
 #define BRUME_ERROR_GL 8            /* no context, a lost one, a refused shader: the message names the step */
 #define BRUME_ERROR_PLUGIN 9        /* an effect failed, threw, or answered nonsense */
 #define BRUME_ERROR_INTERNAL 10     /* a defect of the library */
+#define BRUME_ERROR_CANCELLED 11    /* the progress callback asked for it */
 
 /* Name of a status ("BRUME_ERROR_SCENE"); of an unknown one "BRUME_ERROR_UNKNOWN". Never NULL. */
 BRUME_API const char *brume_status_name(brume_status status);
@@ -101,6 +102,11 @@ typedef struct brume_plan_t *brume_plan;
 /* Called on the thread of the API call that logs. Must not call the library. `message` lives during the call. */
 typedef void (*brume_log_callback)(void *user, uint32_t level, const char *message);
 
+/* How far a call has come, from 0 to 1, never falling. Called on the thread of the API call, now and then; must not call the
+   library. A nonzero return ends the call with BRUME_ERROR_CANCELLED as soon as may be: what it was to write is undefined
+   then, its objects stay usable. */
+typedef int32_t (*brume_progress_callback)(void *user, double fraction);
+
 typedef struct brume_context_desc {
   uint32_t struct_size;
   uint32_t backend;             /* BRUME_BACKEND_...; default AUTO */
@@ -113,8 +119,13 @@ typedef struct brume_context_desc {
   void *log_user;
   const char *plugin_directory; /* a further absolute directory of effects; NULL (default): only lib/brume/ beside the
                                    library. The working directory and the environment are never searched. */
+  brume_progress_callback progress; /* of brume_context_calibrate and brume_plan_execute; NULL (default): not asked. A frame
+                                       on GL asks at its begin and its end only: its passes are but enqueued between. */
+  void *progress_user;
 } brume_context_desc;
-#define BRUME_CONTEXT_DESC_INIT {(uint32_t)sizeof(brume_context_desc), 0u, 0u, 0u, 0u, BRUME_LOG_WARNING, NULL, NULL, NULL}
+#define BRUME_CONTEXT_DESC_INIT \
+  {(uint32_t)sizeof(brume_context_desc), 0u, 0u, 0u, 0u, BRUME_LOG_WARNING, NULL, NULL, NULL, NULL, NULL}
+BRUME_API void brume_context_desc_init(brume_context_desc *desc, size_t size);
 
 /* desc NULL: the defaults. On failure *out is NULL and, there being no context to ask, brume_message(NULL, ...) has the
    text. Loads the effects' plugins; a plugin that is refused does not fail the call (see brume_effect_info.refusal). */
