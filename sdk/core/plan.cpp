@@ -155,6 +155,8 @@ bool brume_host_t::lights_scatter() const
 void brume_host_t::plan_effects()
 {
     const auto &registry = context_->effects;
+    if (!scene_.effects_named && scene_.medium && renders(*scene_.medium))
+        registry.expect_one_for_media();
     for (const EffectSettings &settings : scene_.effects)
         effects_.push_back({.effect = &registry.find(settings.name)});
     for (const Effect &effect : registry.all()) {

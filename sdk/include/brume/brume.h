@@ -416,7 +416,7 @@ typedef struct brume_format {
 #define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u}
 
 /* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
-   nothing more once warm. */
+   nothing more once warm. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders media. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
