@@ -18,6 +18,7 @@ struct Context {
     std::unique_ptr<Backend> backend;
     EffectRegistry effects;
     Rates rates;
+    bool warned_of_clamping = false;
     std::string device;  // what the backend says of itself, kept for callers of the C API
 
 private:

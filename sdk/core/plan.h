@@ -120,5 +120,4 @@ private:
     bool warned_ = false;
     const bool rehearsal_;
     int64_t clamped_values_ = brume::not_counted;
-    bool warned_of_clamping_ = false;
 };
