@@ -22,7 +22,9 @@
  *               images of a failed brume_plan_execute() may be half written.
  *   Structs     begin with struct_size; initialise them with their BRUME_..._INIT. A field counts when it lies wholly
  *               inside the struct_size given; the others take their defaults. Size 0 is refused, and so is a larger
- *               struct whose bytes past the end known here are not all zero.
+ *               struct whose bytes past the end known here are not all zero. Fields named reserved are 0. Languages
+ *               that cannot use the macros call brume_..._init(&it, sizeof it), which sets `size` bytes (struct_size
+ *               included) to the same defaults, those unknown to this library to 0; NULL or a size below 4 is nothing.
  *   Lifetime    destroy(NULL) is legal and nothing. A scene or plan keeps its context alive. A plan copies the scene:
  *               later changes to the scene do not reach it. Pointers in a struct are read during the call only.
  *   Threads     A context with its scenes and plans is externally synchronised: one call at a time. Contexts are
@@ -142,6 +144,7 @@ typedef struct brume_context_info {
   const char *device;     /* GL_RENDERER, or "CPU" */
 } brume_context_info;
 #define BRUME_CONTEXT_INFO_INIT {(uint32_t)sizeof(brume_context_info), 0u, 0u, 0u, 0u, 0u, NULL}
+BRUME_API void brume_context_info_init(brume_context_info *info, size_t size);
 BRUME_API brume_status brume_context_get_info(brume_context context, brume_context_info *info);
 
 /* Measures what the effects' passes take on this device, for at most 20 s; later plans predict and choose with it. Not while
@@ -170,6 +173,7 @@ typedef struct brume_effect_info {
   const char *refusal; /* NULL; or why this plugin was not taken (then name is the file's name and it has no parameters) */
 } brume_effect_info;
 #define BRUME_EFFECT_INFO_INIT {(uint32_t)sizeof(brume_effect_info), 0u, NULL, NULL, NULL, NULL}
+BRUME_API void brume_effect_info_init(brume_effect_info *info, size_t size);
 BRUME_API uint32_t brume_effect_count(brume_context context);
 BRUME_API brume_status brume_effect_get_info(brume_context context, uint32_t index, brume_effect_info *info);
 
@@ -190,6 +194,7 @@ typedef struct brume_parameter_info {
   const char *choices;   /* "paper|reference"; "" unless type is CHOICE */
 } brume_parameter_info;
 #define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL}
+BRUME_API void brume_parameter_info_init(brume_parameter_info *info, size_t size);
 BRUME_API brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
                                                 brume_parameter_info *info);
 
@@ -220,6 +225,7 @@ typedef struct brume_density_term {
 } brume_density_term;
 #define BRUME_DENSITY_TERM_INIT \
   {(uint32_t)sizeof(brume_density_term), BRUME_DENSITY_CONSTANT, 1.0, 0.0, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}}
+BRUME_API void brume_density_term_init(brume_density_term *term, size_t size);
 
 #define BRUME_MAX_DENSITY_TERMS 16u /* exponential ones; constant terms are added up and do not count */
 
@@ -234,6 +240,7 @@ typedef struct brume_gaussian {
                          absorbed, so that extinction does not depend on it. Read by airlight only. */
 } brume_gaussian;
 #define BRUME_GAUSSIAN_INIT {(uint32_t)sizeof(brume_gaussian), 0u, {0.0, 0.0, 0.0}, 1.0, 1.0, {1.0, 1.0, 1.0}}
+BRUME_API void brume_gaussian_init(brume_gaussian *gaussian, size_t size);
 
 #define BRUME_MAX_GAUSSIANS 1000000u
 
@@ -256,6 +263,7 @@ typedef struct brume_medium {
 } brume_medium;
 #define BRUME_MEDIUM_INIT {(uint32_t)sizeof(brume_medium), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
                            0.0, 0.0, 0.0, NULL, NULL, 0u, 0u, 0.0, 1.0, {0.0, 0.0, 0.0}}
+BRUME_API void brume_medium_init(brume_medium *medium, size_t size);
 
 /* Replaces the medium; NULL takes it away. */
 BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_medium *medium);
@@ -281,6 +289,7 @@ typedef struct brume_light {
 } brume_light;
 #define BRUME_LIGHT_INIT {(uint32_t)sizeof(brume_light), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 1.0, 1.0}, \
                           0.0, 0.7853981633974483, 0.1, 0.0}
+BRUME_API void brume_light_init(brume_light *light, size_t size);
 
 #define BRUME_MAX_LIGHTS 4096u
 
@@ -311,6 +320,7 @@ typedef struct brume_camera {
 } brume_camera;
 #define BRUME_CAMERA_INIT {(uint32_t)sizeof(brume_camera), 0u, 0.8726646259971648, 1.0, {0.5, 0.5}, \
   {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}}
+BRUME_API void brume_camera_init(brume_camera *camera, size_t size);
 
 BRUME_API brume_status brume_scene_set_camera(brume_scene scene, const brume_camera *camera);
 
@@ -350,6 +360,7 @@ typedef struct brume_quality {
                            taken for 5 */
 } brume_quality;
 #define BRUME_QUALITY_INIT {(uint32_t)sizeof(brume_quality), BRUME_PRESET_NONE, 0.0, 0.0, 0.0, 0.0}
+BRUME_API void brume_quality_init(brume_quality *quality, size_t size);
 
 /* Replaces the quality wanted; NULL: parameters are as they are set. */
 BRUME_API brume_status brume_scene_set_quality(brume_scene scene, const brume_quality *quality);
@@ -367,6 +378,7 @@ typedef struct brume_scene_info {
   uint32_t reserved;
 } brume_scene_info;
 #define BRUME_SCENE_INFO_INIT {(uint32_t)sizeof(brume_scene_info), 0u, 0u, 0u, 0u, 0u}
+BRUME_API void brume_scene_info_init(brume_scene_info *info, size_t size);
 
 BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info *info);
 
@@ -414,6 +426,7 @@ typedef struct brume_format {
   uint32_t reserved;          /* 0 */
 } brume_format;
 #define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u}
+BRUME_API void brume_format_init(brume_format *format, size_t size);
 
 /* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
    nothing more once warm. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders media. */
@@ -436,6 +449,7 @@ typedef struct brume_plan_info {
                                 is logged. */
 } brume_plan_info;
 #define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0, 0.0, NULL, 0}
+BRUME_API void brume_plan_info_init(brume_plan_info *info, size_t size);
 BRUME_API brume_status brume_plan_get_info(brume_plan plan, brume_plan_info *info);
 
 typedef struct brume_plan_entry {
@@ -450,6 +464,7 @@ typedef struct brume_plan_entry {
   double measured_ms;   /* of the last execute; < 0 before one. On GL: GPU time; asking waits for that frame to end. */
 } brume_plan_entry;
 #define BRUME_PLAN_ENTRY_INIT {(uint32_t)sizeof(brume_plan_entry), 0u, NULL, NULL, NULL, 0u, 0u, 0.0, 0.0}
+BRUME_API void brume_plan_entry_init(brume_plan_entry *entry, size_t size);
 BRUME_API brume_status brume_plan_get_entry(brume_plan plan, uint32_t index, brume_plan_entry *entry);
 
 /* ---- images and execution ---------------------------------------------------------------------------------------- */
@@ -487,6 +502,7 @@ typedef struct brume_extra_output {
   uint32_t reserved;        /* 0 */
 } brume_extra_output;
 #define BRUME_EXTRA_OUTPUT_INIT {(uint32_t)sizeof(brume_extra_output), 0u, NULL, 0u, 0u}
+BRUME_API void brume_extra_output_init(brume_extra_output *output, size_t size);
 
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
@@ -505,6 +521,7 @@ typedef struct brume_frame {
   double frame;                    /* frame number, for the scene's keyed values; default 0 */
 } brume_frame;
 #define BRUME_FRAME_INIT {(uint32_t)sizeof(brume_frame), 0u, NULL, NULL, NULL, NULL, NULL, 0.0}
+BRUME_API void brume_frame_init(brume_frame *frame, size_t size);
 
 BRUME_API brume_status brume_plan_execute(brume_plan plan, const brume_frame *frame);
 
