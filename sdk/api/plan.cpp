@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -59,32 +60,50 @@ brume_format read_format(const brume_format *given)
 brume_image read_image(const brume_image *given, const char *name)
 {
     brume_image image = BRUME_IMAGE_INIT;
-    image = read_struct(given, image, name, &brume_image::kind, &brume_image::pixel, &brume_image::channels,
-                        &brume_image::width, &brume_image::height, &brume_image::origin, &brume_image::gl_texture,
-                        &brume_image::data, &brume_image::pixel_stride, &brume_image::row_stride);
-    auto check = [&](bool good, const char *field, const char *expected) {
+    image =
+        read_struct(given, image, name, &brume_image::kind, &brume_image::pixel, &brume_image::channels, &brume_image::width,
+                    &brume_image::height, &brume_image::origin, &brume_image::gl_texture, &brume_image::data,
+                    &brume_image::pixel_stride, &brume_image::row_stride, &brume_image::plane_stride);
+    auto check = [&](bool good, const char *field, auto value, const char *expected) {
         if (!good)
-            throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + "." + field + ": expected " + expected);
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.{}: {}; expected {}", name, field, value, expected));
     };
-    check(image.kind <= BRUME_IMAGE_GL_TEXTURE, "kind", "a BRUME_IMAGE_...");
-    check(image.pixel <= BRUME_PIXEL_F16, "pixel", "a BRUME_PIXEL_...");
-    check(image.channels >= 1 && image.channels <= 4, "channels", "1 to 4");
-    check(image.origin <= BRUME_ORIGIN_BOTTOM_LEFT, "origin", "a BRUME_ORIGIN_...");
+    check(image.kind <= BRUME_IMAGE_GL_TEXTURE, "kind", image.kind, "a BRUME_IMAGE_...");
+    check(image.pixel <= BRUME_PIXEL_F16, "pixel", image.pixel, "a BRUME_PIXEL_...");
+    check(image.channels >= 1 && image.channels <= 4, "channels", image.channels, "1 to 4");
+    check(image.origin <= BRUME_ORIGIN_BOTTOM_LEFT, "origin", image.origin, "a BRUME_ORIGIN_...");
     if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
-        check(image.gl_texture != 0, "gl_texture", "the name of a texture");
-    } else {
-        check(image.data, "data", "memory");
-        const int64_t size = (image.pixel == BRUME_PIXEL_F16 ? 2 : 4) * int64_t(image.channels);
-        auto within = [](int64_t value, int64_t limit) { return value >= -limit && value <= limit; };
-        check(within(image.pixel_stride, 65536) && (image.pixel_stride == 0 || std::abs(image.pixel_stride) >= size),
-              "pixel_stride", "0, or at least the size of a pixel and at most 64 KiB");
-        check(within(image.row_stride, int64_t(1) << 40), "row_stride", "at most 1 TiB");
-        // Rows may interleave with the pixels of others (a transposed image); only overlap is refused.
-        const int64_t pixel_step = image.pixel_stride ? std::abs(image.pixel_stride) : size;
-        const int64_t row_step = std::abs(image.row_stride);
-        check(row_step == 0 || image.width < 1 || image.height <= 1 || row_step >= pixel_step * (image.width - 1) + size ||
-                  (row_step >= size && pixel_step >= row_step * (image.height - 1) + size),
-              "row_stride", "0, or rows that do not overlap");
+        check(image.gl_texture != 0, "gl_texture", 0, "the name of a texture");
+        return image;
+    }
+    check(image.data, "data", "NULL", "memory");
+    const int64_t sample = image.pixel == BRUME_PIXEL_F16 ? 2 : 4;
+    const int64_t pixel = image.plane_stride ? sample : sample * int64_t(image.channels);
+    auto within = [](int64_t value, int64_t limit) { return value >= -limit && value <= limit; };
+    check(within(image.pixel_stride, 65536) && (image.pixel_stride == 0 || std::abs(image.pixel_stride) >= pixel),
+          "pixel_stride", image.pixel_stride, "0, or at least the size of a pixel and at most 64 KiB");
+    check(within(image.row_stride, int64_t(1) << 40), "row_stride", image.row_stride, "at most 1 TiB");
+    check(within(image.plane_stride, int64_t(1) << 50), "plane_stride", image.plane_stride, "at most 1 PiB");
+    // Whatever lies farther apart must step over all that lies closer together: rows may interleave with the pixels of
+    // others (a transposed image) and planes with rows; only overlap is refused.
+    const int64_t width = std::clamp(image.width, 1, 65536), height = std::clamp(image.height, 1, 65536);
+    struct Step {
+        int64_t bytes, count;
+        const char *name;
+    };
+    const int64_t pixel_step = image.pixel_stride ? std::abs(image.pixel_stride) : pixel;
+    Step steps[] = {{image.plane_stride ? std::abs(image.plane_stride) : sample, image.channels, "plane_stride"},
+                    {pixel_step, width, "pixel_stride"},
+                    {image.row_stride ? std::abs(image.row_stride) : pixel_step * width, height, "row_stride"}};
+    std::stable_sort(std::begin(steps), std::end(steps), [](const Step &a, const Step &b) { return a.bytes < b.bytes; });
+    int64_t extent = sample;
+    for (const Step &step : steps) {
+        if (step.count == 1)
+            continue;
+        check(step.bytes >= extent, image.plane_stride ? step.name : "row_stride",
+              fmt::format("{} bytes between what takes {}", step.bytes, extent),
+              "channels, pixels and rows that do not overlap");
+        extent += step.bytes * (step.count - 1);
     }
     return image;
 }

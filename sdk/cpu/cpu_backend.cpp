@@ -185,7 +185,8 @@ public:
         if (a.pixel == b.pixel && a.channels == b.channels) {
             for_rows(from.height, [&](int y) {
                 for (int x = 0; x < a.width; ++x)
-                    std::memcpy(b.at(x, y), a.at(x, y), size_t(a.sample_size) * size_t(a.channels));
+                    for (int c = 0; c < a.channels; ++c)
+                        std::memcpy(b.at(x, y, c), a.at(x, y, c), size_t(a.sample_size));
             });
             return 0;
         }

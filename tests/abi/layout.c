@@ -163,7 +163,7 @@ FIELD(brume_plan_entry, operations, 40, 8);
 FIELD(brume_plan_entry, predicted_ms, 48, 8);
 FIELD(brume_plan_entry, measured_ms, 56, 8);
 
-SIZE(brume_image, 56);
+SIZE(brume_image, 64);
 FIELD(brume_image, struct_size, 0, 4);
 FIELD(brume_image, kind, 4, 4);
 FIELD(brume_image, pixel, 8, 4);
@@ -175,6 +175,7 @@ FIELD(brume_image, gl_texture, 28, 4);
 FIELD(brume_image, data, 32, 8);
 FIELD(brume_image, pixel_stride, 40, 8);
 FIELD(brume_image, row_stride, 48, 8);
+FIELD(brume_image, plane_stride, 56, 8);
 
 SIZE(brume_extra_output, 24);
 FIELD(brume_extra_output, struct_size, 0, 4);

@@ -491,8 +491,11 @@ typedef struct brume_image {
   void *data;            /* of the first row's first pixel; read only for inputs */
   int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
   int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
+  int64_t plane_stride;  /* [bytes] from a channel to the next, may be negative; 0 (default): side by side in the pixel. Else
+                            packed means that the samples of a channel are side by side. */
 } brume_image;
-#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0}
+#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0, 0}
+BRUME_API void brume_image_init(brume_image *image, size_t size);
 
 typedef struct brume_extra_output {
   uint32_t struct_size;
@@ -506,8 +509,8 @@ BRUME_API void brume_extra_output_init(brume_extra_output *output, size_t size);
 
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
-   clamped to +-65504 (brume_plan_info counts how many). `output` may be the very image `color` is (in place), with the same layout; partial overlap is
-   not allowed.
+   clamped to +-65504 (brume_plan_info counts how many). `output` may be the very image `color` is (in place), with the
+   same layout; partial overlap is not allowed. Images may be different channels of the same pixels in memory.
    Host memory: returns when the output is complete. GL textures: the work is enqueued in the current context, nothing
    waits; the caller orders its own reads after it as after any GL write (a memory barrier for all uses is issued). */
 typedef struct brume_frame {
