@@ -204,7 +204,6 @@ static void misses_effects(const char *directory)
     expect_no_plan(&library, context, "{\"brume\": 1, \"medium\": {\"emission\": 1}}", parts);
     expect_plan(&library, context, "{\"brume\": 1}");
     expect_plan(&library, context, "{\"brume\": 1, \"medium\": {}}");
-    expect_plan(&library, context, "{\"brume\": 1, \"medium\": {\"visibility\": 100}, \"effects\": {}}");
     library.brume_context_destroy(context);
 }
 
