@@ -183,10 +183,12 @@ public:
         if (a.data == b.data)
             return 0;
         if (a.pixel == b.pixel && a.channels == b.channels) {
+            const int parts = a.interleaved() && b.interleaved() ? 1 : a.channels;
+            const auto bytes = size_t(a.sample_size) * size_t(a.channels / parts);
             for_rows(from.height, [&](int y) {
                 for (int x = 0; x < a.width; ++x)
-                    for (int c = 0; c < a.channels; ++c)
-                        std::memcpy(b.at(x, y, c), a.at(x, y, c), size_t(a.sample_size));
+                    for (int c = 0; c < parts; ++c)
+                        std::memcpy(b.at(x, y, c), a.at(x, y, c), bytes);
             });
             return 0;
         }
