@@ -76,7 +76,7 @@ const char *brume_status_name(brume_status status)
     static const char *const names[] = {"BRUME_OK",           "BRUME_ERROR_ARGUMENT",  "BRUME_ERROR_UNSUPPORTED",
                                         "BRUME_ERROR_MEMORY", "BRUME_ERROR_NOT_FOUND", "BRUME_ERROR_SCENE",
                                         "BRUME_ERROR_CAMERA", "BRUME_ERROR_FORMAT",    "BRUME_ERROR_GL",
-                                        "BRUME_ERROR_PLUGIN", "BRUME_ERROR_INTERNAL"};
+                                        "BRUME_ERROR_PLUGIN", "BRUME_ERROR_INTERNAL",  "BRUME_ERROR_CANCELLED"};
     bool known = status >= 0 && size_t(status) < sizeof names / sizeof *names;
     return known ? names[status] : "BRUME_ERROR_UNKNOWN";
 }
@@ -97,13 +97,15 @@ brume_status brume_context_create(const brume_context_desc *given, brume_context
             desc =
                 read_struct(given, desc, "brume_context_desc", &brume_context_desc::backend, &brume_context_desc::gl_context,
                             &brume_context_desc::gl_state, &brume_context_desc::threads, &brume_context_desc::log_level,
-                            &brume_context_desc::log, &brume_context_desc::log_user, &brume_context_desc::plugin_directory);
-        expect(desc.backend <= BRUME_BACKEND_GL, "backend: expected a BRUME_BACKEND_...");
-        expect(desc.gl_context <= BRUME_GL_BORROWED, "gl_context: expected BRUME_GL_OWNED or BRUME_GL_BORROWED");
-        expect(desc.gl_state <= BRUME_GL_STATE_OWNED, "gl_state: expected a BRUME_GL_STATE_...");
-        expect(desc.threads <= 1024, "threads: expected 0 to 1024");
-        expect(desc.log_level >= BRUME_LOG_ERROR && desc.log_level <= BRUME_LOG_DEBUG,
-               "log_level: expected a BRUME_LOG_...");
+                            &brume_context_desc::log, &brume_context_desc::log_user, &brume_context_desc::plugin_directory,
+                            &brume_context_desc::progress, &brume_context_desc::progress_user);
+        expect(desc.backend <= BRUME_BACKEND_GL, "brume_context_desc.backend", desc.backend, "a BRUME_BACKEND_...");
+        expect(desc.gl_context <= BRUME_GL_BORROWED, "brume_context_desc.gl_context", desc.gl_context,
+               "BRUME_GL_OWNED or BRUME_GL_BORROWED");
+        expect(desc.gl_state <= BRUME_GL_STATE_OWNED, "brume_context_desc.gl_state", desc.gl_state, "a BRUME_GL_STATE_...");
+        expect(desc.threads <= 1024, "brume_context_desc.threads", desc.threads, "0 to 1024");
+        expect(desc.log_level >= BRUME_LOG_ERROR && desc.log_level <= BRUME_LOG_DEBUG, "brume_context_desc.log_level",
+               desc.log_level, "a BRUME_LOG_...");
         *out = new brume_context_t{create_context(desc, make_backend)};
     });
 }
@@ -132,7 +134,11 @@ brume_status brume_context_calibrate(brume_context context)
 {
     if (!context)
         return barrier(nullptr, [] { expect(false, "context: NULL"); });
-    return barrier(context->context.get(), [&] { calibrate(context->context); });
+    return barrier(context->context.get(), [&] {
+        context->context->progress.begin();
+        calibrate(context->context);
+        context->context->progress.end();
+    });
 }
 
 size_t brume_context_calibration(brume_context context, char *buffer, size_t capacity)

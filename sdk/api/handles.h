@@ -3,10 +3,12 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <brume/brume.h>
 #include <brume/brume_media.h>
+#include <fmt/format.h>
 
 #include "core/context.h"
 #include "core/error.h"
@@ -81,6 +83,13 @@ inline void expect(bool condition, const char *message)
 {
     if (!condition)
         throw Error(BRUME_ERROR_ARGUMENT, message);
+}
+
+// "name: value; expected ..."
+template <class Value> void expect(bool condition, std::string_view name, const Value &value, std::string_view expected)
+{
+    if (!condition)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {}; expected {}", name, value, expected));
 }
 
 }  // namespace brume::api

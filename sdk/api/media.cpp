@@ -43,11 +43,12 @@ Screen read_view(const brume_media_view *given, bool with_depth)
 {
     brume_media_view view = BRUME_MEDIA_VIEW_INIT;
     view = read_struct(given, view, "brume_media_view", &brume_media_view::camera, &brume_media_view::format,
-                       &brume_media_view::depth);
+                       &brume_media_view::depth, &brume_media_view::reserved);
+    expect(view.reserved == 0, "brume_media_view.reserved", view.reserved, "0");
     const brume_camera camera = read_camera(view.camera, "brume_media_view.camera");
     check_camera(camera);
-    expect(camera.given == (BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE),
-           "brume_media_view.camera.given: expected a field of view and a pose");
+    expect(camera.given == (BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE), "brume_media_view.camera.given", camera.given,
+           "a field of view and a pose");
     const brume_format format = read_format(view.format);
     Screen result{media::make_lens(camera, format), nullptr};
     if (with_depth && view.depth)
@@ -214,7 +215,8 @@ brume_status brume_media_apply_erase(brume_media handle, const brume_media_erase
     return with_media(handle, [&](media::History &history) {
         brume_media_erase erase = BRUME_MEDIA_ERASE_INIT;
         erase = read_struct(given, erase, "brume_media_erase", &brume_media_erase::stroke, &brume_media_erase::radius,
-                            &brume_media_erase::strength);
+                            &brume_media_erase::strength, &brume_media_erase::reserved);
+        expect(erase.reserved == 0, "brume_media_erase.reserved", erase.reserved, "0");
         history.apply(media::Erase{read_stroke(erase.stroke).points, erase.radius, erase.strength});
     });
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -53,31 +54,33 @@ std::vector<brume_layer> read_layers(const brume_layer *given, uint32_t count, c
 Format read_format(const brume_format *given)
 {
     brume_format format = BRUME_FORMAT_INIT;
-    format =
-        read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height, &brume_format::display_x,
-                    &brume_format::display_y, &brume_format::display_width, &brume_format::display_height,
-                    &brume_format::depth_kind, &brume_format::depth_range, &brume_format::far_distance, &brume_format::sky,
-                    &brume_format::input_count, &brume_format::sky_distance, &brume_format::nonpositive, &brume_format::output_count,
-                    &brume_format::inputs, &brume_format::outputs);
-    expect(format.width >= 1 && format.width <= 65536, "brume_format.width: expected 1 to 65536");
-    expect(format.height >= 1 && format.height <= 65536, "brume_format.height: expected 1 to 65536");
+    format = read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height,
+                         &brume_format::display_x, &brume_format::display_y, &brume_format::display_width,
+                         &brume_format::display_height, &brume_format::depth_kind, &brume_format::depth_range,
+                         &brume_format::far_distance, &brume_format::sky, &brume_format::input_count,
+                         &brume_format::sky_distance, &brume_format::nonpositive, &brume_format::output_count,
+                         &brume_format::inputs, &brume_format::outputs);
+    expect(format.width >= 1 && format.width <= 65536, "brume_format.width", format.width, "1 to 65536");
+    expect(format.height >= 1 && format.height <= 65536, "brume_format.height", format.height, "1 to 65536");
     expect(format.display_width >= 0 && format.display_height >= 0 &&
                (format.display_width == 0) == (format.display_height == 0),
-           "brume_format.display_width, display_height: expected both positive, or both 0");
-    expect(format.depth_kind <= BRUME_DEPTH_DEVICE, "brume_format.depth_kind: expected a BRUME_DEPTH_...");
-    expect(format.sky <= BRUME_SKY_CLAMP, "brume_format.sky: expected a BRUME_SKY_...");
-    expect(format.nonpositive <= BRUME_NONPOSITIVE_NEAR, "brume_format.nonpositive: expected a BRUME_NONPOSITIVE_...");
-    expect(format.far_distance > 0, "brume_format.far_distance: expected a positive number");
+           "brume_format.display_width, display_height", fmt::format("{}, {}", format.display_width, format.display_height),
+           "both positive, or both 0");
+    expect(format.depth_kind <= BRUME_DEPTH_DEVICE, "brume_format.depth_kind", format.depth_kind, "a BRUME_DEPTH_...");
+    expect(format.sky <= BRUME_SKY_CLAMP, "brume_format.sky", format.sky, "a BRUME_SKY_...");
+    expect(format.nonpositive <= BRUME_NONPOSITIVE_NEAR, "brume_format.nonpositive", format.nonpositive,
+           "a BRUME_NONPOSITIVE_...");
+    expect(format.far_distance > 0, "brume_format.far_distance", format.far_distance, "a positive number");
+    const auto &range = format.depth_range;
+    const std::string given_range = fmt::format("{}, {}", range[0], range[1]);
     bool device = format.depth_kind == BRUME_DEPTH_DEVICE;
     if (device || format.depth_kind == BRUME_DEPTH_NORMALIZED)
-        for (double end : format.depth_range)
-            expect(device ? end > 0 : end >= 0 && std::isfinite(end),
-                   device ? "brume_format.depth_range: expected two positive distances (one may be infinite)"
-                          : "brume_format.depth_range: expected two finite distances of 0 or more");
-    expect(!device || format.depth_range[0] != format.depth_range[1],
-           "brume_format.depth_range: expected two different distances");
+        for (double end : range)
+            expect(device ? end > 0 : end >= 0 && std::isfinite(end), "brume_format.depth_range", given_range,
+                   device ? "two positive distances (one may be infinite)" : "two finite distances of 0 or more");
+    expect(!device || range[0] != range[1], "brume_format.depth_range", given_range, "two different distances");
     expect(format.sky != BRUME_SKY_CLAMP || (format.sky_distance >= 0 && std::isfinite(format.sky_distance)),
-           "brume_format.sky_distance: expected a finite distance of 0 or more");
+           "brume_format.sky_distance", format.sky_distance, "a finite distance of 0 or more");
     const std::vector<brume_layer> inputs = read_layers(format.inputs, format.input_count, "brume_format.inputs", false),
                                    outputs = read_layers(format.outputs, format.output_count, "brume_format.outputs", false);
     format.inputs = inputs.data();
@@ -88,32 +91,50 @@ Format read_format(const brume_format *given)
 brume_image read_image(const brume_image *given, const char *name)
 {
     brume_image image = BRUME_IMAGE_INIT;
-    image = read_struct(given, image, name, &brume_image::kind, &brume_image::pixel, &brume_image::channels,
-                        &brume_image::width, &brume_image::height, &brume_image::origin, &brume_image::gl_texture,
-                        &brume_image::data, &brume_image::pixel_stride, &brume_image::row_stride);
-    auto check = [&](bool good, const char *field, const char *expected) {
+    image =
+        read_struct(given, image, name, &brume_image::kind, &brume_image::pixel, &brume_image::channels, &brume_image::width,
+                    &brume_image::height, &brume_image::origin, &brume_image::gl_texture, &brume_image::data,
+                    &brume_image::pixel_stride, &brume_image::row_stride, &brume_image::plane_stride);
+    auto check = [&](bool good, const char *field, auto value, const char *expected) {
         if (!good)
-            throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + "." + field + ": expected " + expected);
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.{}: {}; expected {}", name, field, value, expected));
     };
-    check(image.kind <= BRUME_IMAGE_GL_TEXTURE, "kind", "a BRUME_IMAGE_...");
-    check(image.pixel <= BRUME_PIXEL_F16, "pixel", "a BRUME_PIXEL_...");
-    check(image.channels >= 1 && image.channels <= 4, "channels", "1 to 4");
-    check(image.origin <= BRUME_ORIGIN_BOTTOM_LEFT, "origin", "a BRUME_ORIGIN_...");
+    check(image.kind <= BRUME_IMAGE_GL_TEXTURE, "kind", image.kind, "a BRUME_IMAGE_...");
+    check(image.pixel <= BRUME_PIXEL_F16, "pixel", image.pixel, "a BRUME_PIXEL_...");
+    check(image.channels >= 1 && image.channels <= 4, "channels", image.channels, "1 to 4");
+    check(image.origin <= BRUME_ORIGIN_BOTTOM_LEFT, "origin", image.origin, "a BRUME_ORIGIN_...");
     if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
-        check(image.gl_texture != 0, "gl_texture", "the name of a texture");
-    } else {
-        check(image.data, "data", "memory");
-        const int64_t size = (image.pixel == BRUME_PIXEL_F16 ? 2 : 4) * int64_t(image.channels);
-        auto within = [](int64_t value, int64_t limit) { return value >= -limit && value <= limit; };
-        check(within(image.pixel_stride, 65536) && (image.pixel_stride == 0 || std::abs(image.pixel_stride) >= size),
-              "pixel_stride", "0, or at least the size of a pixel and at most 64 KiB");
-        check(within(image.row_stride, int64_t(1) << 40), "row_stride", "at most 1 TiB");
-        // Rows may interleave with the pixels of others (a transposed image); only overlap is refused.
-        const int64_t pixel_step = image.pixel_stride ? std::abs(image.pixel_stride) : size;
-        const int64_t row_step = std::abs(image.row_stride);
-        check(row_step == 0 || image.width < 1 || image.height <= 1 || row_step >= pixel_step * (image.width - 1) + size ||
-                  (row_step >= size && pixel_step >= row_step * (image.height - 1) + size),
-              "row_stride", "0, or rows that do not overlap");
+        check(image.gl_texture != 0, "gl_texture", 0, "the name of a texture");
+        return image;
+    }
+    check(image.data, "data", "NULL", "memory");
+    const int64_t sample = image.pixel == BRUME_PIXEL_F16 ? 2 : 4;
+    const int64_t pixel = image.plane_stride ? sample : sample * int64_t(image.channels);
+    auto within = [](int64_t value, int64_t limit) { return value >= -limit && value <= limit; };
+    check(within(image.pixel_stride, 65536) && (image.pixel_stride == 0 || std::abs(image.pixel_stride) >= pixel),
+          "pixel_stride", image.pixel_stride, "0, or at least the size of a pixel and at most 64 KiB");
+    check(within(image.row_stride, int64_t(1) << 40), "row_stride", image.row_stride, "at most 1 TiB");
+    check(within(image.plane_stride, int64_t(1) << 50), "plane_stride", image.plane_stride, "at most 1 PiB");
+    // Whatever lies farther apart must step over all that lies closer together: rows may interleave with the pixels of
+    // others (a transposed image) and planes with rows; only overlap is refused.
+    const int64_t width = std::clamp(image.width, 1, 65536), height = std::clamp(image.height, 1, 65536);
+    struct Step {
+        int64_t bytes, count;
+        const char *name;
+    };
+    const int64_t pixel_step = image.pixel_stride ? std::abs(image.pixel_stride) : pixel;
+    Step steps[] = {{image.plane_stride ? std::abs(image.plane_stride) : sample, image.channels, "plane_stride"},
+                    {pixel_step, width, "pixel_stride"},
+                    {image.row_stride ? std::abs(image.row_stride) : pixel_step * width, height, "row_stride"}};
+    std::stable_sort(std::begin(steps), std::end(steps), [](const Step &a, const Step &b) { return a.bytes < b.bytes; });
+    int64_t extent = sample;
+    for (const Step &step : steps) {
+        if (step.count == 1)
+            continue;
+        check(step.bytes >= extent, image.plane_stride ? step.name : "row_stride",
+              fmt::format("{} bytes between what takes {}", step.bytes, extent),
+              "channels, pixels and rows that do not overlap");
+        extent += step.bytes * (step.count - 1);
     }
     return image;
 }
@@ -215,8 +236,8 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
         frame = read_struct(given, frame, "brume_frame", &brume_frame::input_count, &brume_frame::color, &brume_frame::depth,
                             &brume_frame::output, &brume_frame::inputs, &brume_frame::outputs, &brume_frame::output_count,
                             &brume_frame::reserved, &brume_frame::camera, &brume_frame::frame);
-        expect(frame.reserved == 0, "brume_frame.reserved: expected 0");
-        expect(std::isfinite(frame.frame), "brume_frame.frame: expected a finite number");
+        expect(frame.reserved == 0, "brume_frame.reserved", frame.reserved, "0");
+        expect(std::isfinite(frame.frame), "brume_frame.frame", frame.frame, "a finite number");
         brume_image color = read_image(frame.color, "color");
         brume_image output = read_image(frame.output, "output");
         frame.color = &color;
@@ -234,7 +255,10 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
         const LayersOfFrame inputs(frame.inputs, frame.input_count, "inputs"), outputs(frame.outputs, frame.output_count, "outputs");
         frame.inputs = inputs.layers.data();
         frame.outputs = outputs.layers.data();
+        Progress &progress = handle->context->progress;
+        progress.begin();
         plan.execute(frame);
+        progress.end();
     });
 }
 

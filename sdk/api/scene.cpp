@@ -18,7 +18,9 @@ Gaussian read_gaussian(const brume_gaussian *given, const std::string &name)
 {
     brume_gaussian read = BRUME_GAUSSIAN_INIT;
     read = read_struct(given, read, name.c_str(), &brume_gaussian::center, &brume_gaussian::scale,
-                       &brume_gaussian::amplitude, &brume_gaussian::colour);
+                       &brume_gaussian::amplitude, &brume_gaussian::colour, &brume_gaussian::reserved);
+    if (read.reserved)
+        expect(false, name + ".reserved", read.reserved, "0");
     Gaussian gaussian;
     std::copy_n(read.center, 3, gaussian.center.begin());
     gaussian.scale = read.scale;
@@ -162,7 +164,7 @@ brume_status brume_scene_set_medium(brume_scene handle, const brume_medium *give
         if (medium.droplet_diameter != 0)
             result.droplet_diameter = medium.droplet_diameter;
         expect(medium.terms || medium.term_count == 0, "brume_medium.terms: NULL with a term_count above 0");
-        expect(medium.term_count <= 4096, "brume_medium.term_count: expected 0 to 4096");
+        expect(medium.term_count <= 4096, "brume_medium.term_count", medium.term_count, "0 to 4096");
         for (size_t i = 0; i < medium.term_count; ++i)
             result.density.push_back(read_term(element(medium.terms, i), i));
         result.gaussian_sets = gaussians_of(medium);
@@ -195,7 +197,7 @@ brume_status brume_scene_set_quality(brume_scene handle, const brume_quality *gi
         const brume_quality quality = read_struct(
             given, brume_quality BRUME_QUALITY_INIT, "brume_quality", &brume_quality::preset, &brume_quality::max_error,
             &brume_quality::budget_ms, &brume_quality::transmittance, &brume_quality::detail);
-        expect(quality.preset <= BRUME_PRESET_REFERENCE, "brume_quality.preset: expected a BRUME_PRESET_...");
+        expect(quality.preset <= BRUME_PRESET_REFERENCE, "brume_quality.preset", quality.preset, "a BRUME_PRESET_...");
         auto check = [](double value, const Range &range, const char *name) {
             if (value != 0 && !range.contains(value))
                 throw Error(BRUME_ERROR_ARGUMENT,
@@ -289,7 +291,7 @@ brume_status brume_scene_get_camera_given(brume_scene handle, uint32_t *given)
 brume_status brume_scene_set_metres_per_unit(brume_scene handle, double metres)
 {
     return with_scene(handle, [&](Scene &scene) {
-        expect(metres >= 1e-12 && metres <= 1e12, "metres: expected 1e-12 to 1e12");
+        expect(metres >= 1e-12 && metres <= 1e12, "metres", metres, "1e-12 to 1e12");
         scene.metres_per_unit = metres;
     });
 }
@@ -299,8 +301,9 @@ brume_status brume_scene_set_luminance_weights(brume_scene handle, const double 
     return with_scene(handle, [&](Scene &scene) {
         expect(weights, "weights: NULL");
         for (int i = 0; i < 3; ++i)
-            expect(weights[i] >= 0 && weights[i] <= 1, "weights: expected numbers from 0 to 1");
-        expect(std::abs(weights[0] + weights[1] + weights[2] - 1) < 1e-3, "weights: expected a sum of 1");
+            expect(weights[i] >= 0 && weights[i] <= 1, fmt::format("weights[{}]", i), weights[i], "a number from 0 to 1");
+        const double sum = weights[0] + weights[1] + weights[2];
+        expect(std::abs(sum - 1) < 1e-3, "weights", fmt::format("a sum of {}", sum), "1");
         scene.luminance = {weights[0], weights[1], weights[2]};
     });
 }

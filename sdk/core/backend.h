@@ -9,6 +9,7 @@
 
 #include "core/log.h"
 #include "core/pass_layout.h"
+#include "core/progress.h"
 
 // The plugin ABI's opaque types are the backend's classes themselves.
 struct brume_plugin_image_t {
@@ -86,9 +87,9 @@ public:
     // Ends a frame: whatever the caller may do next sees what was written.
     virtual void flush() = 0;
 
-    // images: in the order of the pass's slots, as many; constants: of the pass's size.
+    // images: in the order of the pass's slots, as many; constants: of the pass's size; watch: NULL where nobody does.
     virtual brume_status run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width,
-                             int32_t height, const brume_plugin_scene &scene, void *user) = 0;
+                             int32_t height, const brume_plugin_scene &scene, void *user, const Watch *watch) = 0;
 };
 
 std::unique_ptr<Backend> make_cpu_backend(uint32_t threads);

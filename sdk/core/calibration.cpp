@@ -158,10 +158,20 @@ void calibrate(const std::shared_ptr<Context> &context)
     const auto end = Clock::now() + most_time;
     Samples samples;
     TestFrame small(sizes[0].first, sizes[0].second), large(sizes[1].first, sizes[1].second);
-    for (const Scene &scene : cases(context))
-        for (TestFrame *test : {&small, &large})
-            if (Clock::now() < end)
-                measure(context, scene, *test, end, samples);
+    const std::vector<Scene> scenes = cases(context);
+    Progress &progress = context->progress;
+    const double parts = 2 * double(scenes.size());
+    double part = 0;
+    for (const Scene &scene : scenes)
+        for (TestFrame *test : {&small, &large}) {
+            if (Clock::now() >= end)
+                break;
+            progress.enter_part(part / parts, (part + 1) / parts);
+            measure(context, scene, *test, end, samples);
+            ++part;
+            progress.report(1);
+            progress.throw_if_cancelled();
+        }
     Rates rates;
     for (const auto &[pass, measured] : samples)
         rates.set(pass.first, pass.second, fit(measured));

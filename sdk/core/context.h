@@ -6,6 +6,7 @@
 #include "core/backend.h"
 #include "core/effects.h"
 #include "core/log.h"
+#include "core/progress.h"
 #include "core/rates.h"
 
 namespace brume {
@@ -13,9 +14,11 @@ namespace brume {
 struct Context {
     const uint64_t id = new_id();  // of no other context, unlike its address
     Log log;
+    Progress progress;
     std::unique_ptr<Backend> backend;
     EffectRegistry effects;
     Rates rates;
+    bool warned_of_clamping = false;
     std::string device;  // what the backend says of itself, kept for callers of the C API
 
 private:

@@ -38,6 +38,7 @@ std::vector<std::string> plugin_files(const std::string &directory, const Log &l
 void EffectRegistry::load(const std::vector<std::string> &directories, const Log &log)
 {
     for (const std::string &directory : directories) {
+        directories_.push_back(directory);
         for (const std::string &file : plugin_files(directory, log)) {
             Effect effect = load_plugin(file);
             const auto earlier = std::find_if(effects_.begin(), effects_.end(), [&](const Effect &other) {
@@ -53,6 +54,23 @@ void EffectRegistry::load(const std::vector<std::string> &directories, const Log
             effects_.push_back(std::move(effect));
         }
     }
+}
+
+void EffectRegistry::expect_one_for_media() const
+{
+    std::string refused;
+    for (const Effect &effect : effects_) {
+        if (effect.refusal.empty() && effect.wanted == BRUME_WANTED_WITH_MEDIUM)
+            return;
+        if (!effect.refusal.empty())
+            refused += fmt::format("; {} was refused: {}", effect.file, effect.refusal);
+    }
+    std::string searched;
+    for (const std::string &directory : directories_)
+        searched +=
+            (searched.empty() ? "" : ", ") + (directory.empty() ? "lib/brume/ of a library of unknown path" : directory);
+    throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("medium: no effect that renders media was found; searched {}{}",
+                                                   searched.empty() ? "nowhere" : searched, refused));
 }
 
 const Effect &EffectRegistry::find(const std::string &name) const

@@ -47,9 +47,12 @@ public:
     const std::vector<Effect> &all() const { return effects_; }
     // Throws Error(BRUME_ERROR_NOT_FOUND) naming the nearest effect, or the refusal of the plugin of that name.
     const Effect &find(const std::string &name) const;
+    // Throws Error(BRUME_ERROR_NOT_FOUND) with the directories searched and every refusal, if none renders media.
+    void expect_one_for_media() const;
 
 private:
     std::vector<Effect> effects_;
+    std::vector<std::string> directories_;
 };
 
 // Index of a parameter; throws Error(BRUME_ERROR_NOT_FOUND) naming the nearest.

@@ -45,6 +45,17 @@ bool is_lit(const Scene &scene)
     return !scene.lights.empty() || !scene.environment.coefficients.empty();
 }
 
+// Media of which this is false cannot be seen, however dense.
+bool renders(const Medium &medium)
+{
+    const auto any = [](const Number3 &numbers) {
+        return std::any_of(numbers.begin(), numbers.end(), [](const Number &number) {
+            return std::any_of(number.keys.begin(), number.keys.end(), [](auto &key) { return key.second != 0; });
+        });
+    };
+    return medium.visibility || any(medium.scattering) || any(medium.absorption) || any(medium.emission);
+}
+
 // Whether the scene's content, which names no effects, asks for this one.
 bool wants(const Scene &scene, const Effect &effect)
 {
@@ -118,6 +129,8 @@ void brume_host_t::destroy_states() noexcept
 void brume_host_t::choose_effects()
 {
     const auto &registry = context_->effects;
+    if (!scene_.effects_named && scene_.medium && renders(*scene_.medium))
+        registry.expect_one_for_media();
     for (const EffectSettings &settings : scene_.effects)
         effects_.push_back({.effect = &registry.find(settings.name), .named = true});
     for (const Effect &effect : registry.all()) {
@@ -475,6 +488,16 @@ brume_pass brume_host_t::create_pass(const brume_pass_desc &desc)
     return passes_.back().get();
 }
 
+double brume_host_t::share_before(int entry) const
+{
+    double before = 0, all = 0;
+    for (size_t i = 0; i < entries_.size(); ++i) {
+        before += int(i) < entry ? entries_[i].predicted_ms : 0;
+        all += entries_[i].predicted_ms;
+    }
+    return all > 0 ? before / all : 0;
+}
+
 brume_status brume_host_t::run(brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width,
                                int32_t height, void *user)
 {
@@ -484,7 +507,9 @@ brume_status brume_host_t::run(brume_pass pass, const brume_plugin_image *images
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("pass \"{}\": its grid is {} x {}; expected at least 1 x 1",
                                                       pass->layout.name, width, height));
     timer_->mark(pass->entry);
-    return context_->backend->run(*pass, images, constants, width, height, content_.scene(), user);
+    Watch watch{context_->progress, share_before(pass->entry), share_before(pass->entry + 1)};
+    return context_->backend->run(*pass, images, constants, width, height, content_.scene(), user,
+                                  context_->progress.wanted() ? &watch : nullptr);
 }
 
 void brume_host_t::publish(const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count,

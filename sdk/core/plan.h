@@ -106,6 +106,7 @@ private:
     void bind_passes();
     void release() noexcept;
     void destroy_states() noexcept;
+    double share_before(int entry) const;  // of the frame's predicted time
     bool is_made_by(const brume::Effect &effect, const std::string &product) const;
 
     int64_t run_effects(const brume_frame &frame);
@@ -139,5 +140,4 @@ private:
     bool warned_ = false;
     const bool rehearsal_;
     int64_t clamped_values_ = brume::not_counted;
-    bool warned_of_clamping_ = false;
 };

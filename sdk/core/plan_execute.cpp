@@ -66,12 +66,13 @@ void brume_host_t::execute(const brume_frame &frame)
         timer_->end();
         context_->backend->flush();
     });
-    if (clamped_values_ > 0 && !warned_of_clamping_)
+    if (clamped_values_ > 0 && !context_->warned_of_clamping) {
+        context_->warned_of_clamping = true;
         context_->log(BRUME_LOG_WARNING,
-                      fmt::format("frame {}: {} values beyond 65504 clamped to fit half outputs; in further frames of this plan "
+                      fmt::format("frame {}: {} values beyond 65504 clamped to fit half outputs; of further frames "
                                   "brume_plan_info.clamped_values alone tells",
                                   frame.frame, clamped_values_));
-    warned_of_clamping_ = warned_of_clamping_ || clamped_values_ > 0;
+    }
 }
 
 int64_t brume_host_t::copy_frame(const brume_frame &frame)
@@ -132,6 +133,7 @@ void brume_host_t::run_effect(PlannedEffect &planned, brume_plugin_frame &seen)
     } catch (...) {
         throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in execute");
     }
+    context_->progress.throw_if_cancelled();
     if (status != BRUME_OK)
         effect_failed(*planned.effect, "execute", status);
 }

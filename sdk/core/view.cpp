@@ -94,7 +94,7 @@ void fill_camera(const Scene &scene, const View &view, const brume_format &forma
 void check_camera(const brume_camera &camera)
 {
     auto refuse = [](const std::string &what, double value, const char *expected) {
-        throw Error(BRUME_ERROR_ARGUMENT, "camera." + what + ": " + std::to_string(value) + "; expected " + expected);
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("camera.{}: {}; expected {}", what, value, expected));
     };
     if (camera.given & BRUME_CAMERA_FIELD_OF_VIEW) {
         if (!(camera.vertical_fov >= 1e-6 && camera.vertical_fov <= 3.141592))

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <list>
 #include <mutex>
+#include <thread>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/info.h>
@@ -113,7 +114,7 @@ private:
 class CpuBackend : public Backend {
 public:
     explicit CpuBackend(uint32_t threads)
-        : threads_(threads ? threads : most_threads()), arena_(int(std::min(threads_, most_threads())))
+        : threads_(threads ? std::min(threads, most_threads()) : most_threads()), arena_(int(threads_))
     {
     }
 
@@ -197,9 +198,12 @@ public:
         if (a.data == b.data)
             return 0;
         if (a.pixel == b.pixel && a.channels == b.channels) {
+            const int parts = a.interleaved() && b.interleaved() ? 1 : a.channels;
+            const auto bytes = size_t(a.sample_size) * size_t(a.channels / parts);
             for_rows(from.height, [&](int y) {
                 for (int x = 0; x < a.width; ++x)
-                    std::memcpy(b.at(x, y), a.at(x, y), size_t(a.sample_size) * size_t(a.channels));
+                    for (int c = 0; c < parts; ++c)
+                        std::memcpy(b.at(x, y, c), a.at(x, y, c), bytes);
             });
             return 0;
         }
@@ -210,7 +214,7 @@ public:
     void flush() override {}
 
     brume_status run(Pass &described, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
-                     const brume_plugin_scene &scene, void *user) override
+                     const brume_plugin_scene &scene, void *user, const Watch *watch) override
     {
         auto &pass = static_cast<CpuPass &>(described);
         for (size_t i = 0; i < pass.pixels.size(); ++i)
@@ -220,6 +224,8 @@ public:
         // Blocks are fixed by grain alone and never by the number of threads, so an effect that sums over its block
         // gives the same bits on any machine.
         std::atomic<brume_status> status = BRUME_OK;
+        std::atomic<int32_t> done = 0;
+        const std::thread::id caller = std::this_thread::get_id();
         const int32_t grain = std::min(pass.grain, height);
         const int32_t blocks = height / grain + (height % grain != 0);
         arena_.execute([&] {
@@ -228,6 +234,11 @@ public:
                     return;
                 const auto last = int32_t(std::min<int64_t>(height, (int64_t(block) + 1) * grain));
                 brume_status result = pass.function(&call, block * grain, last);
+                // Only the thread of the API call may report, between the blocks that it takes itself.
+                const int32_t rows = done += last - block * grain;
+                if (watch && std::this_thread::get_id() == caller &&
+                    !watch->progress.report(watch->from + (watch->to - watch->from) * rows / height))
+                    result = BRUME_ERROR_CANCELLED;
                 brume_status none = BRUME_OK;
                 if (result != BRUME_OK)
                     status.compare_exchange_strong(none, result);

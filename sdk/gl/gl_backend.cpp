@@ -56,7 +56,7 @@ public:
     void flush() override;
 
     brume_status run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
-                     const brume_plugin_scene &scene, void *user) override;
+                     const brume_plugin_scene &scene, void *user, const Watch *watch) override;
 
 private:
     bool stores_round_to_nearest();
@@ -221,7 +221,7 @@ void GlBackend::flush()
 }
 
 brume_status GlBackend::run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
-                            const brume_plugin_scene &scene, void *)
+                            const brume_plugin_scene &scene, void *, const Watch *)
 {
     static_cast<GlPass &>(pass).run(images, constants, width, height, scene, samplers_, device_.guard());
     return BRUME_OK;

@@ -30,7 +30,7 @@ template <class Sample> void store(unsigned char *p, Sample sample)
 
 template <class Sample> void load_row(const HostPixels &from, int y, int channels, Sample *to)
 {
-    constexpr int size = sizeof(Sample);
+    const int64_t next = from.channel_stride;
     const bool color = from.channels >= 3;
     const bool alpha = from.channels == 2 || from.channels == 4;
     for (int x = 0; x < from.width; ++x, to += channels) {
@@ -38,26 +38,26 @@ template <class Sample> void load_row(const HostPixels &from, int y, int channel
         to[0] = load<Sample>(p);
         if (channels == 1)
             continue;
-        to[1] = color ? load<Sample>(p + size) : to[0];
-        to[2] = color ? load<Sample>(p + 2 * size) : to[0];
-        to[3] = alpha ? load<Sample>(p + (from.channels - 1) * size) : one<Sample>;
+        to[1] = color ? load<Sample>(p + next) : to[0];
+        to[2] = color ? load<Sample>(p + 2 * next) : to[0];
+        to[3] = alpha ? load<Sample>(p + (from.channels - 1) * next) : one<Sample>;
     }
 }
 
 template <class Sample> void store_row(const Sample *from, int channels, const HostPixels &to, int y)
 {
-    constexpr int size = sizeof(Sample);
+    const int64_t next = to.channel_stride;
     const bool color = to.channels >= 3 && channels == 4;
     const bool alpha = to.channels == 2 || to.channels == 4;
     for (int x = 0; x < to.width; ++x, from += channels) {
         unsigned char *p = to.at(x, y);
         store(p, from[0]);
         if (to.channels >= 3) {
-            store(p + size, color ? from[1] : from[0]);
-            store(p + 2 * size, color ? from[2] : from[0]);
+            store(p + next, color ? from[1] : from[0]);
+            store(p + 2 * next, color ? from[2] : from[0]);
         }
         if (alpha)
-            store(p + (to.channels - 1) * size, channels == 4 ? from[3] : one<Sample>);
+            store(p + (to.channels - 1) * next, channels == 4 ? from[3] : one<Sample>);
     }
 }
 
@@ -71,7 +71,7 @@ struct Layout {
     // What pixel-store parameters can express: whole pixels side by side and rows that are whole pixels apart.
     bool describes(const HostPixels &host, const GlImage &image) const
     {
-        return host.channels == image.channels && host.pixel_stride == pixel_bytes &&
+        return host.channels == image.channels && host.interleaved() && host.pixel_stride == pixel_bytes &&
                host.row_stride >= host.width * pixel_bytes && host.row_stride % pixel_bytes == 0 &&
                host.row_stride / pixel_bytes <= INT32_MAX &&
                reinterpret_cast<uintptr_t>(host.data) % uintptr_t(host.sample_size) == 0;

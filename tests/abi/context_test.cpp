@@ -16,7 +16,8 @@ TEST(Status, NamesAreTheMacros)
     EXPECT_STREQ(brume_status_name(BRUME_ERROR_ARGUMENT), "BRUME_ERROR_ARGUMENT");
     EXPECT_STREQ(brume_status_name(BRUME_ERROR_CAMERA), "BRUME_ERROR_CAMERA");
     EXPECT_STREQ(brume_status_name(BRUME_ERROR_INTERNAL), "BRUME_ERROR_INTERNAL");
-    for (brume_status unknown : {-1, 11, 4711, INT32_MAX, INT32_MIN})
+    EXPECT_STREQ(brume_status_name(BRUME_ERROR_CANCELLED), "BRUME_ERROR_CANCELLED");
+    for (brume_status unknown : {-1, 12, 4711, INT32_MAX, INT32_MIN})
         EXPECT_STREQ(brume_status_name(unknown), "BRUME_ERROR_UNKNOWN");
 }
 
@@ -45,14 +46,21 @@ TEST(Context, SaysThatTheBuildHasNoGl)
 
 TEST(Context, CpuInfo)
 {
-    Context context = make_context(BRUME_BACKEND_CPU, 3);
+    Context context = make_context(BRUME_BACKEND_CPU, 1);
     brume_context_info info = BRUME_CONTEXT_INFO_INIT;
     ASSERT_EQ(brume_context_get_info(context.get(), &info), BRUME_OK);
     EXPECT_EQ(info.backend, BRUME_BACKEND_CPU);
     EXPECT_STREQ(info.device, "CPU");
-    EXPECT_EQ(info.threads, 3u);
+    EXPECT_EQ(info.threads, 1u);
     EXPECT_EQ(info.device_bytes, 0u);
     EXPECT_EQ(info.struct_size, sizeof info);
+
+    // Not those asked for but those that run.
+    Context all = make_context(BRUME_BACKEND_CPU, 0), too_many = make_context(BRUME_BACKEND_CPU, 1000);
+    ASSERT_EQ(brume_context_get_info(all.get(), &info), BRUME_OK);
+    const uint32_t most = info.threads;
+    ASSERT_EQ(brume_context_get_info(too_many.get(), &info), BRUME_OK);
+    EXPECT_EQ(info.threads, most);
 }
 
 TEST(Context, RefusesNonsense)

@@ -15,7 +15,7 @@
 SIZE(brume_status, 4);
 EXPECT((brume_status)-1 < 0);
 
-SIZE(brume_context_desc, 48);
+SIZE(brume_context_desc, 64);
 FIELD(brume_context_desc, struct_size, 0, 4);
 FIELD(brume_context_desc, backend, 4, 4);
 FIELD(brume_context_desc, gl_context, 8, 4);
@@ -25,6 +25,8 @@ FIELD(brume_context_desc, log_level, 20, 4);
 FIELD(brume_context_desc, log, 24, 8);
 FIELD(brume_context_desc, log_user, 32, 8);
 FIELD(brume_context_desc, plugin_directory, 40, 8);
+FIELD(brume_context_desc, progress, 48, 8);
+FIELD(brume_context_desc, progress_user, 56, 8);
 
 SIZE(brume_context_info, 40);
 FIELD(brume_context_info, struct_size, 0, 4);
@@ -161,7 +163,7 @@ FIELD(brume_plan_entry, operations, 40, 8);
 FIELD(brume_plan_entry, predicted_ms, 48, 8);
 FIELD(brume_plan_entry, measured_ms, 56, 8);
 
-SIZE(brume_image, 56);
+SIZE(brume_image, 64);
 FIELD(brume_image, struct_size, 0, 4);
 FIELD(brume_image, kind, 4, 4);
 FIELD(brume_image, pixel, 8, 4);
@@ -173,6 +175,7 @@ FIELD(brume_image, gl_texture, 28, 4);
 FIELD(brume_image, data, 32, 8);
 FIELD(brume_image, pixel_stride, 40, 8);
 FIELD(brume_image, row_stride, 48, 8);
+FIELD(brume_image, plane_stride, 56, 8);
 
 SIZE(brume_extra_output, 24);
 FIELD(brume_extra_output, struct_size, 0, 4);

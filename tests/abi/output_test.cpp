@@ -139,6 +139,7 @@ TEST_P(Outputs, ClampedValuesAreCountedAndWarnedOfOnce)
         << message(counting.get());
     EXPECT_EQ(clamped(), counts ? int64_t(3 * sky) : -1);
     EXPECT_EQ(tau.get(0, 0, 0), 65504.0f);
+    EXPECT_EQ(warnings.size(), counts ? 1u : 0u) << "a further plan of the context warns again";
 }
 
 TEST_P(Outputs, HugeRadianceStaysFinite)

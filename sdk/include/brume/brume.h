@@ -22,7 +22,9 @@
  *               images of a failed brume_plan_execute() may be half written.
  *   Structs     begin with struct_size; initialise them with their BRUME_..._INIT. A field counts when it lies wholly
  *               inside the struct_size given; the others take their defaults. Size 0 is refused, and so is a larger
- *               struct whose bytes past the end known here are not all zero.
+ *               struct whose bytes past the end known here are not all zero. Fields named reserved are 0. Languages
+ *               that cannot use the macros call brume_..._init(&it, sizeof it), which sets `size` bytes (struct_size
+ *               included) to the same defaults, those unknown to this library to 0; NULL or a size below 4 is nothing.
  *   Lifetime    destroy(NULL) is legal and nothing. A scene or plan keeps its context alive. A plan copies the scene:
  *               later changes to the scene do not reach it. Pointers in a struct are read during the call only.
  *   Threads     A context with its scenes and plans is externally synchronised: one call at a time. Contexts are
@@ -67,6 +69,7 @@ typedef int32_t brume_status;
 #define BRUME_ERROR_GL 8            /* no context, a lost one, a refused shader: the message names the step */
 #define BRUME_ERROR_PLUGIN 9        /* an effect failed, threw, or answered nonsense */
 #define BRUME_ERROR_INTERNAL 10     /* a defect of the library */
+#define BRUME_ERROR_CANCELLED 11    /* the progress callback asked for it */
 
 /* Name of a status ("BRUME_ERROR_SCENE"); of an unknown one "BRUME_ERROR_UNKNOWN". Never NULL. */
 BRUME_API const char *brume_status_name(brume_status status);
@@ -101,6 +104,11 @@ typedef struct brume_plan_t *brume_plan;
 /* Called on the thread of the API call that logs. Must not call the library. `message` lives during the call. */
 typedef void (*brume_log_callback)(void *user, uint32_t level, const char *message);
 
+/* How far a call has come, from 0 to 1, never falling. Called on the thread of the API call, now and then; must not call the
+   library. A nonzero return ends the call with BRUME_ERROR_CANCELLED as soon as may be: what it was to write is undefined
+   then, its objects stay usable. */
+typedef int32_t (*brume_progress_callback)(void *user, double fraction);
+
 typedef struct brume_context_desc {
   uint32_t struct_size;
   uint32_t backend;             /* BRUME_BACKEND_...; default AUTO */
@@ -113,8 +121,13 @@ typedef struct brume_context_desc {
   void *log_user;
   const char *plugin_directory; /* a further absolute directory of effects; NULL (default): only lib/brume/ beside the
                                    library. The working directory and the environment are never searched. */
+  brume_progress_callback progress; /* of brume_context_calibrate and brume_plan_execute; NULL (default): not asked. A frame
+                                       on GL asks at its begin and its end only: its passes are but enqueued between. */
+  void *progress_user;
 } brume_context_desc;
-#define BRUME_CONTEXT_DESC_INIT {(uint32_t)sizeof(brume_context_desc), 0u, 0u, 0u, 0u, BRUME_LOG_WARNING, NULL, NULL, NULL}
+#define BRUME_CONTEXT_DESC_INIT \
+  {(uint32_t)sizeof(brume_context_desc), 0u, 0u, 0u, 0u, BRUME_LOG_WARNING, NULL, NULL, NULL, NULL, NULL}
+BRUME_API void brume_context_desc_init(brume_context_desc *desc, size_t size);
 
 /* desc NULL: the defaults. On failure *out is NULL and, there being no context to ask, brume_message(NULL, ...) has the
    text. Loads the effects' plugins; a plugin that is refused does not fail the call (see brume_effect_info.refusal). */
@@ -124,13 +137,14 @@ BRUME_API void brume_context_destroy(brume_context context);
 typedef struct brume_context_info {
   uint32_t struct_size;
   uint32_t backend;       /* the one in use: BRUME_BACKEND_CPU or _GL */
-  uint32_t threads;
+  uint32_t threads;       /* that work at most: those asked for, or all the process may use where those are fewer */
   uint32_t reserved;
   uint64_t host_bytes;    /* image memory held now, pools included */
   uint64_t device_bytes;
   const char *device;     /* GL_RENDERER, or "CPU" */
 } brume_context_info;
 #define BRUME_CONTEXT_INFO_INIT {(uint32_t)sizeof(brume_context_info), 0u, 0u, 0u, 0u, 0u, NULL}
+BRUME_API void brume_context_info_init(brume_context_info *info, size_t size);
 BRUME_API brume_status brume_context_get_info(brume_context context, brume_context_info *info);
 
 /* Measures what the effects' passes take on this device, for at most 20 s; later plans predict and choose with it. Not while
@@ -159,6 +173,7 @@ typedef struct brume_effect_info {
   const char *refusal; /* NULL; or why this plugin was not taken (then name is the file's name and it has no parameters) */
 } brume_effect_info;
 #define BRUME_EFFECT_INFO_INIT {(uint32_t)sizeof(brume_effect_info), 0u, NULL, NULL, NULL, NULL}
+BRUME_API void brume_effect_info_init(brume_effect_info *info, size_t size);
 BRUME_API uint32_t brume_effect_count(brume_context context);
 BRUME_API brume_status brume_effect_get_info(brume_context context, uint32_t index, brume_effect_info *info);
 
@@ -179,6 +194,7 @@ typedef struct brume_parameter_info {
   const char *choices;   /* "paper|reference"; "" unless type is CHOICE */
 } brume_parameter_info;
 #define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL}
+BRUME_API void brume_parameter_info_init(brume_parameter_info *info, size_t size);
 BRUME_API brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
                                                 brume_parameter_info *info);
 
@@ -197,6 +213,7 @@ typedef struct brume_layer_info {
   const char *help;  /* one line: what it is, and what for */
 } brume_layer_info;
 #define BRUME_LAYER_INFO_INIT {(uint32_t)sizeof(brume_layer_info), 0u, 0u, 0u, NULL, NULL}
+BRUME_API void brume_layer_info_init(brume_layer_info *info, size_t size);
 
 /* How many layers an effect reads and fills; effect NULL: those that the library reads itself. 0 of an effect that is not there. */
 BRUME_API uint32_t brume_layer_count(brume_context context, const char *effect);
@@ -229,6 +246,7 @@ typedef struct brume_density_term {
 } brume_density_term;
 #define BRUME_DENSITY_TERM_INIT \
   {(uint32_t)sizeof(brume_density_term), BRUME_DENSITY_CONSTANT, 1.0, 0.0, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}}
+BRUME_API void brume_density_term_init(brume_density_term *term, size_t size);
 
 #define BRUME_MAX_DENSITY_TERMS 16u /* exponential ones; constant terms are added up and do not count */
 
@@ -243,6 +261,7 @@ typedef struct brume_gaussian {
                          absorbed, so that extinction does not depend on it. Read by airlight only. */
 } brume_gaussian;
 #define BRUME_GAUSSIAN_INIT {(uint32_t)sizeof(brume_gaussian), 0u, {0.0, 0.0, 0.0}, 1.0, 1.0, {1.0, 1.0, 1.0}}
+BRUME_API void brume_gaussian_init(brume_gaussian *gaussian, size_t size);
 
 #define BRUME_MAX_GAUSSIANS 1000000u
 
@@ -265,6 +284,7 @@ typedef struct brume_medium {
 } brume_medium;
 #define BRUME_MEDIUM_INIT {(uint32_t)sizeof(brume_medium), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
                            0.0, 0.0, 0.0, NULL, NULL, 0u, 0u, 0.0, 1.0, {0.0, 0.0, 0.0}}
+BRUME_API void brume_medium_init(brume_medium *medium, size_t size);
 
 /* Replaces the medium; NULL takes it away. */
 BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_medium *medium);
@@ -290,6 +310,7 @@ typedef struct brume_light {
 } brume_light;
 #define BRUME_LIGHT_INIT {(uint32_t)sizeof(brume_light), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 1.0, 1.0}, \
                           0.0, 0.7853981633974483, 0.1, 0.0}
+BRUME_API void brume_light_init(brume_light *light, size_t size);
 
 #define BRUME_MAX_LIGHTS 4096u
 
@@ -320,6 +341,7 @@ typedef struct brume_camera {
 } brume_camera;
 #define BRUME_CAMERA_INIT {(uint32_t)sizeof(brume_camera), 0u, 0.8726646259971648, 1.0, {0.5, 0.5}, \
   {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}}
+BRUME_API void brume_camera_init(brume_camera *camera, size_t size);
 
 BRUME_API brume_status brume_scene_set_camera(brume_scene scene, const brume_camera *camera);
 
@@ -359,6 +381,7 @@ typedef struct brume_quality {
                            taken for 5 */
 } brume_quality;
 #define BRUME_QUALITY_INIT {(uint32_t)sizeof(brume_quality), BRUME_PRESET_NONE, 0.0, 0.0, 0.0, 0.0}
+BRUME_API void brume_quality_init(brume_quality *quality, size_t size);
 
 /* Replaces the quality wanted; NULL: parameters are as they are set. */
 BRUME_API brume_status brume_scene_set_quality(brume_scene scene, const brume_quality *quality);
@@ -376,6 +399,7 @@ typedef struct brume_scene_info {
   uint32_t reserved;
 } brume_scene_info;
 #define BRUME_SCENE_INFO_INIT {(uint32_t)sizeof(brume_scene_info), 0u, 0u, 0u, 0u, 0u}
+BRUME_API void brume_scene_info_init(brume_scene_info *info, size_t size);
 
 BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info *info);
 
@@ -403,8 +427,11 @@ typedef struct brume_image {
   void *data;            /* of the first row's first pixel; read only for inputs */
   int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
   int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
+  int64_t plane_stride;  /* [bytes] from a channel to the next, may be negative; 0 (default): side by side in the pixel. Else
+                            packed means that the samples of a channel are side by side. */
 } brume_image;
-#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0}
+#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0, 0}
+BRUME_API void brume_image_init(brume_image *image, size_t size);
 
 /* A picture beside colour and depth, by the name of what it holds. Effects say which they read and fill
    (brume_layer_get_info); those that ship know, for instance,
@@ -423,6 +450,7 @@ typedef struct brume_layer {
   uint32_t reserved;        /* 0 */
 } brume_layer;
 #define BRUME_LAYER_INIT {(uint32_t)sizeof(brume_layer), 0u, NULL, NULL, 0u, 0u}
+BRUME_API void brume_layer_init(brume_layer *layer, size_t size);
 
 #define BRUME_LAYER_WORLD 0u  /* of normals: in world axes */
 #define BRUME_LAYER_CAMERA 1u /* in camera axes (+x right, +y up, looking down -z) */
@@ -468,9 +496,10 @@ typedef struct brume_format {
 } brume_format;
 #define BRUME_FORMAT_INIT \
   {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u, NULL, NULL}
+BRUME_API void brume_format_init(brume_format *format, size_t size);
 
 /* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
-   nothing more once warm. */
+   nothing more once warm. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders media. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
@@ -495,9 +524,11 @@ typedef struct brume_plan_info {
   double predicted_error;    /* that 95 of 100 frames keep below, as brume_quality.max_error counts; < 0: unknown */
   const char *quality;       /* what was chosen for the quality asked, and why; "" where none was asked */
   int64_t clamped_values;    /* of the last execute's half outputs: those beyond 65504, written as that; < 0 before one, and
-                                for half outputs on GL, where a count would have to be waited for. A first is logged. */
+                                for half outputs on GL, where a count would have to be waited for. The first of a context
+                                is logged. */
 } brume_plan_info;
 #define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0, 0.0, NULL, 0}
+BRUME_API void brume_plan_info_init(brume_plan_info *info, size_t size);
 BRUME_API brume_status brume_plan_get_info(brume_plan plan, brume_plan_info *info);
 
 typedef struct brume_plan_entry {
@@ -512,14 +543,15 @@ typedef struct brume_plan_entry {
   double measured_ms;   /* of the last execute; < 0 before one. On GL: GPU time; asking waits for that frame to end. */
 } brume_plan_entry;
 #define BRUME_PLAN_ENTRY_INIT {(uint32_t)sizeof(brume_plan_entry), 0u, NULL, NULL, NULL, 0u, 0u, 0.0, 0.0}
+BRUME_API void brume_plan_entry_init(brume_plan_entry *entry, size_t size);
 BRUME_API brume_status brume_plan_get_entry(brume_plan plan, uint32_t index, brume_plan_entry *entry);
 
 /* ---- execution --------------------------------------------------------------------------------------------------- */
 
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
-   clamped to +-65504 (brume_plan_info counts how many). `output` may be the very image `color` is (in place), with the same layout; partial overlap is
-   not allowed.
+   clamped to +-65504 (brume_plan_info counts how many). `output` may be the very image `color` is (in place), with the
+   same layout; partial overlap is not allowed. Images may be different channels of the same pixels in memory.
    Host memory: returns when the output is complete. GL textures: the work is enqueued in the current context, nothing
    waits; the caller orders its own reads after it as after any GL write (a memory barrier for all uses is issued). */
 typedef struct brume_frame {
@@ -536,6 +568,7 @@ typedef struct brume_frame {
   double frame;               /* frame number, for the scene's keyed values; default 0 */
 } brume_frame;
 #define BRUME_FRAME_INIT {(uint32_t)sizeof(brume_frame), 0u, NULL, NULL, NULL, NULL, NULL, 0u, 0u, NULL, 0.0}
+BRUME_API void brume_frame_init(brume_frame *frame, size_t size);
 
 BRUME_API brume_status brume_plan_execute(brume_plan plan, const brume_frame *frame);
 

@@ -5,6 +5,16 @@
 //   brume::Scene scene(context, text, "fog.json");
 //   brume::Plan plan(scene, brume::format(1920, 1080));
 //   plan.execute(brume::image(rgba, 1920, 1080, 4), brume::image(z, 1920, 1080, 1), brume::image(out, 1920, 1080, 4));
+//
+// Compiled without exceptions, or with BRUME_HPP_NO_EXCEPTIONS defined, calls return a brume_status instead. A handle that
+// could not be made is false and its status() says why it could not; what answers with a value answers with the defaults
+// after a failure. message() of a context has the text:
+//
+//   brume::Plan plan(scene, format);
+//   if (!plan)
+//       report(plan.status(), context.message());
+//   if (brume_status status = plan.execute(frame))
+//       report(status, context.message());
 #ifndef BRUME_BRUME_HPP
 #define BRUME_BRUME_HPP
 
@@ -12,7 +22,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,7 +29,22 @@
 
 #include "brume.h"
 
+#if !defined(BRUME_HPP_NO_EXCEPTIONS) && !defined(__cpp_exceptions)
+#define BRUME_HPP_NO_EXCEPTIONS
+#endif
+#ifndef BRUME_HPP_NO_EXCEPTIONS
+#include <stdexcept>
+#endif
+
 namespace brume {
+
+#ifdef BRUME_HPP_NO_EXCEPTIONS
+// Names of their own, so that a program may have files of either kind.
+inline namespace no_exceptions {
+
+using Result = brume_status;
+#else
+using Result = void;
 
 class Error : public std::runtime_error {
 public:
@@ -30,6 +54,7 @@ public:
 private:
     brume_status status_;
 };
+#endif
 
 namespace detail {
 
@@ -48,13 +73,25 @@ template <class Value> std::uint32_t count(const std::vector<Value> &values)
     return std::uint32_t(std::min<std::size_t>(values.size(), UINT32_MAX));
 }
 
-inline void check(brume_context context, brume_status status)
+inline std::string message(brume_context context)
+{
+    return copied_text([&](char *to, std::size_t size) { return brume_message(context, to, size); });
+}
+
+#ifdef BRUME_HPP_NO_EXCEPTIONS
+inline Result check(brume_context, brume_status status)
+{
+    return status;
+}
+#else
+inline Result check(brume_context context, brume_status status)
 {
     if (status == BRUME_OK)
         return;
-    std::string message = copied_text([&](char *to, std::size_t size) { return brume_message(context, to, size); });
-    throw Error(status, message.empty() ? brume_status_name(status) : message);
+    const std::string text = message(context);
+    throw Error(status, text.empty() ? brume_status_name(status) : text);
 }
+#endif
 
 struct Destroy {
     void operator()(brume_scene scene) const { brume_scene_destroy(scene); }
@@ -69,12 +106,17 @@ public:
     explicit Context(const brume_context_desc &desc = brume_context_desc BRUME_CONTEXT_DESC_INIT)
     {
         brume_context context = nullptr;
-        detail::check(nullptr, brume_context_create(&desc, &context));
+        status_ = brume_context_create(&desc, &context);
+        detail::check(nullptr, status_);
         handle_.reset(context, brume_context_destroy);
     }
 
     brume_context get() const { return handle_.get(); }
-    void check(brume_status status) const { detail::check(get(), status); }
+    explicit operator bool() const { return handle_ != nullptr; }
+    brume_status status() const { return status_; }
+    // Of the calling thread's last failure in this context, or in making it.
+    std::string message() const { return detail::message(get()); }
+    Result check(brume_status status) const { return detail::check(get(), status); }
 
     brume_context_info info() const
     {
@@ -108,13 +150,16 @@ public:
         return all;
     }
 
-    void calibrate() { check(brume_context_calibrate(get())); }
+    Result calibrate() { return check(brume_context_calibrate(get())); }
     std::string calibration() const
     {
         return detail::copied_text(
             [&](char *to, std::size_t size) { return brume_context_calibration(get(), to, size); });
     }
-    void set_calibration(std::string_view text) { check(brume_context_set_calibration(get(), text.data(), text.size())); }
+    Result set_calibration(std::string_view text)
+    {
+        return check(brume_context_set_calibration(get(), text.data(), text.size()));
+    }
 
     std::string scene_schema() const
     {
@@ -124,6 +169,7 @@ public:
 
 private:
     std::shared_ptr<brume_context_t> handle_;
+    brume_status status_ = BRUME_OK;
 };
 
 class Scene {
@@ -131,7 +177,8 @@ public:
     explicit Scene(const Context &context) : context_(context)
     {
         brume_scene scene = nullptr;
-        context_.check(brume_scene_create(context_.get(), &scene));
+        status_ = brume_scene_create(context_.get(), &scene);
+        context_.check(status_);
         handle_.reset(scene);
     }
 
@@ -139,30 +186,33 @@ public:
     Scene(const Context &context, std::string_view text, const std::string &name = "scene") : context_(context)
     {
         brume_scene scene = nullptr;
-        context_.check(brume_scene_create_from_text(context_.get(), text.data(), text.size(), name.c_str(), &scene));
+        status_ = brume_scene_create_from_text(context_.get(), text.data(), text.size(), name.c_str(), &scene);
+        context_.check(status_);
         handle_.reset(scene);
     }
 
     brume_scene get() const { return handle_.get(); }
+    explicit operator bool() const { return handle_ != nullptr; }
+    brume_status status() const { return status_; }
     const Context &context() const { return context_; }
 
-    void set_medium(const brume_medium &medium) { context_.check(brume_scene_set_medium(get(), &medium)); }
+    Result set_medium(const brume_medium &medium) { return context_.check(brume_scene_set_medium(get(), &medium)); }
     // With these Gaussians instead of those that the medium points to.
-    void set_medium(brume_medium medium, const std::vector<brume_gaussian> &gaussians)
+    Result set_medium(brume_medium medium, const std::vector<brume_gaussian> &gaussians)
     {
         medium.gaussians = gaussians.data();
         medium.gaussian_count = detail::count(gaussians);
-        set_medium(medium);
+        return set_medium(medium);
     }
-    void remove_medium() { context_.check(brume_scene_set_medium(get(), nullptr)); }
-    void set_lights(const std::vector<brume_light> &lights)
+    Result remove_medium() { return context_.check(brume_scene_set_medium(get(), nullptr)); }
+    Result set_lights(const std::vector<brume_light> &lights)
     {
-        context_.check(brume_scene_set_lights(get(), lights.data(), detail::count(lights)));
+        return context_.check(brume_scene_set_lights(get(), lights.data(), detail::count(lights)));
     }
-    void set_environment(const std::vector<std::array<double, 3>> &coefficients)
+    Result set_environment(const std::vector<std::array<double, 3>> &coefficients)
     {
         const double *first = coefficients.empty() ? nullptr : coefficients.front().data();
-        context_.check(brume_scene_set_environment(get(), first, detail::count(coefficients)));
+        return context_.check(brume_scene_set_environment(get(), first, detail::count(coefficients)));
     }
     std::string environment_file() const
     {
@@ -175,19 +225,19 @@ public:
         context_.check(brume_scene_get_info(get(), &info));
         return info;
     }
-    void set_quality(const brume_quality &quality) { context_.check(brume_scene_set_quality(get(), &quality)); }
+    Result set_quality(const brume_quality &quality) { return context_.check(brume_scene_set_quality(get(), &quality)); }
     brume_quality quality() const
     {
         brume_quality quality = BRUME_QUALITY_INIT;
         context_.check(brume_scene_get_quality(get(), &quality));
         return quality;
     }
-    void set_camera(const brume_camera &camera) { context_.check(brume_scene_set_camera(get(), &camera)); }
-    void set_metres_per_unit(double metres) { context_.check(brume_scene_set_metres_per_unit(get(), metres)); }
-    void set_luminance_weights(double r, double g, double b)
+    Result set_camera(const brume_camera &camera) { return context_.check(brume_scene_set_camera(get(), &camera)); }
+    Result set_metres_per_unit(double metres) { return context_.check(brume_scene_set_metres_per_unit(get(), metres)); }
+    Result set_luminance_weights(double r, double g, double b)
     {
         const double weights[3] = {r, g, b};
-        context_.check(brume_scene_set_luminance_weights(get(), weights));
+        return context_.check(brume_scene_set_luminance_weights(get(), weights));
     }
 
     // BRUME_CAMERA_... flags.
@@ -198,22 +248,23 @@ public:
         return given;
     }
 
-    void add_effect(const std::string &effect)
+    Result add_effect(const std::string &effect)
     {
-        context_.check(brume_scene_set_text(get(), effect.c_str(), nullptr, nullptr));
+        return context_.check(brume_scene_set_text(get(), effect.c_str(), nullptr, nullptr));
     }
-    void set(const std::string &effect, const std::string &parameter, const std::string &value)
+    Result set(const std::string &effect, const std::string &parameter, const std::string &value)
     {
-        context_.check(brume_scene_set_text(get(), effect.c_str(), parameter.c_str(), value.c_str()));
+        return context_.check(brume_scene_set_text(get(), effect.c_str(), parameter.c_str(), value.c_str()));
     }
-    void set(const std::string &effect, const std::string &parameter, double value)
+    Result set(const std::string &effect, const std::string &parameter, double value)
     {
-        context_.check(brume_scene_set_number(get(), effect.c_str(), parameter.c_str(), value));
+        return context_.check(brume_scene_set_number(get(), effect.c_str(), parameter.c_str(), value));
     }
 
 private:
     Context context_;
     std::unique_ptr<brume_scene_t, detail::Destroy> handle_;
+    brume_status status_ = BRUME_OK;
 };
 
 class Plan {
@@ -221,11 +272,14 @@ public:
     Plan(const Scene &scene, const brume_format &format) : context_(scene.context())
     {
         brume_plan plan = nullptr;
-        context_.check(brume_plan_create(scene.get(), &format, &plan));
+        status_ = brume_plan_create(scene.get(), &format, &plan);
+        context_.check(status_);
         handle_.reset(plan);
     }
 
     brume_plan get() const { return handle_.get(); }
+    explicit operator bool() const { return handle_ != nullptr; }
+    brume_status status() const { return status_; }
 
     brume_plan_info info() const
     {
@@ -242,8 +296,8 @@ public:
         return all;
     }
 
-    void execute(const brume_frame &frame) { context_.check(brume_plan_execute(get(), &frame)); }
-    void execute(const brume_image &color, const brume_image &depth, const brume_image &output,
+    Result execute(const brume_frame &frame) { return context_.check(brume_plan_execute(get(), &frame)); }
+    Result execute(const brume_image &color, const brume_image &depth, const brume_image &output,
                  const brume_camera *camera = nullptr, double frame_number = 0)
     {
         brume_frame frame = BRUME_FRAME_INIT;
@@ -252,12 +306,13 @@ public:
         frame.output = &output;
         frame.camera = camera;
         frame.frame = frame_number;
-        execute(frame);
+        return execute(frame);
     }
 
 private:
     Context context_;
     std::unique_ptr<brume_plan_t, detail::Destroy> handle_;
+    brume_status status_ = BRUME_OK;
 };
 
 inline brume_format format(std::int32_t width, std::int32_t height)
@@ -304,6 +359,9 @@ inline brume_image texture(std::uint32_t name, std::int32_t width, std::int32_t 
     return image;
 }
 
+#ifdef BRUME_HPP_NO_EXCEPTIONS
+}  // namespace no_exceptions
+#endif
 }  // namespace brume
 
 #endif

@@ -42,6 +42,7 @@ typedef struct brume_media_info {
   uint32_t redo_count;
 } brume_media_info;
 #define BRUME_MEDIA_INFO_INIT {(uint32_t)sizeof(brume_media_info), 0u, 0u, 0u, 0u, 0u}
+BRUME_API void brume_media_info_init(brume_media_info *info, size_t size);
 BRUME_API brume_status brume_media_get_info(brume_media media, brume_media_info *info);
 
 /* Copies Gaussians `first` to `first + count - 1` out; each element of `out` is of out[0].struct_size. */
@@ -71,6 +72,7 @@ typedef struct brume_media_view {
                                   nothing is in the way */
 } brume_media_view;
 #define BRUME_MEDIA_VIEW_INIT {(uint32_t)sizeof(brume_media_view), 0u, NULL, NULL, NULL}
+BRUME_API void brume_media_view_init(brume_media_view *view, size_t size);
 
 #define BRUME_MEDIA_MAX_STROKE_POINTS 65536u
 
@@ -84,6 +86,7 @@ typedef struct brume_media_stroke {
   double plane_normal[3];       /* of any length; default (0, 0, 0): no plane */
 } brume_media_stroke;
 #define BRUME_MEDIA_STROKE_INIT {(uint32_t)sizeof(brume_media_stroke), 0u, NULL, NULL, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}
+BRUME_API void brume_media_stroke_init(brume_media_stroke *stroke, size_t size);
 
 /* ---- paintbrush and eraser --------------------------------------------------------------------------------------- */
 
@@ -100,6 +103,7 @@ typedef struct brume_media_paint {
 } brume_media_paint;
 #define BRUME_MEDIA_PAINT_INIT \
   {(uint32_t)sizeof(brume_media_paint), 0u, NULL, 1.0, 1.0, {1.0, 1.0, 1.0}, 0.0, 1.0}
+BRUME_API void brume_media_paint_init(brume_media_paint *paint, size_t size);
 
 /* Operation. */
 BRUME_API brume_status brume_media_apply_paint(brume_media media, const brume_media_paint *paint);
@@ -114,6 +118,7 @@ typedef struct brume_media_erase {
   double strength;    /* ratio to unit density, >= 0; default 1 */
 } brume_media_erase;
 #define BRUME_MEDIA_ERASE_INIT {(uint32_t)sizeof(brume_media_erase), 0u, NULL, 1.0, 1.0}
+BRUME_API void brume_media_erase_init(brume_media_erase *erase, size_t size);
 
 /* Operation. */
 BRUME_API brume_status brume_media_apply_erase(brume_media media, const brume_media_erase *erase);
@@ -140,6 +145,7 @@ typedef struct brume_media_emitter {
 #define BRUME_MEDIA_EMITTER_INIT \
   {(uint32_t)sizeof(brume_media_emitter), 0u, {0.0, 0.0, 0.0}, 0.0, {0.0, 0.0, 1.0}, 0.0, {0.0, 0.0, 0.0}, 100.0, 1e6, 1.0, \
    {1.0, 1.0}, {1.0, 0.0}, {1.0, 1.0, 1.0}}
+BRUME_API void brume_media_emitter_init(brume_media_emitter *emitter, size_t size);
 
 /* Operation: adds a Gaussian for each particle alive at `time` [s], 0 to 1e6. */
 BRUME_API brume_status brume_media_apply_emit(brume_media media, const brume_media_emitter *emitter, double time);
@@ -165,6 +171,7 @@ typedef struct brume_media_airbrush {
 #define BRUME_MEDIA_AIRBRUSH_INIT \
   {(uint32_t)sizeof(brume_media_airbrush), 0u, NULL, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.0, 1.0, 0.1, 100.0, 1.0, 1.0, 1.0, \
    {1.0, 1.0, 1.0}}
+BRUME_API void brume_media_airbrush_init(brume_media_airbrush *airbrush, size_t size);
 
 /* Operation. */
 BRUME_API brume_status brume_media_apply_airbrush(brume_media media, const brume_media_airbrush *airbrush);
