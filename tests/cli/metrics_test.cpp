@@ -64,6 +64,45 @@ TEST(Metrics, LeaveOutAndCountWhatIsNotFinite)
     EXPECT_EQ(m.different, 1u);
 }
 
+TEST(Metrics, TheMeanDifferenceHasASign)
+{
+    Picture a = flat(4, 1, 1);
+    a.rgb[0] = a.rgb[1] = a.rgb[2] = 0.5f;
+    EXPECT_DOUBLE_EQ(measure(a, flat(4, 1, 1)).mean_difference, -0.125);
+    EXPECT_DOUBLE_EQ(measure(flat(4, 1, 1), a).mean_difference, 0.125);
+    a.rgb[0] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_DOUBLE_EQ(measure(a, flat(4, 1, 1)).mean_difference, -1.0 / 11) << "of what is finite in both";
+}
+
+TEST(Metrics, WhatIsMaskedDoesNotCount)
+{
+    const Picture r = flat(6, 6, 1);
+    Picture a = r;
+    a.rgb[3 * 14] = 5;
+    a.rgb[3 * 15] = std::numeric_limits<float>::quiet_NaN();
+    Mask mask(36, 1);
+    mask[14] = mask[15] = 0;
+    const Metrics m = measure(a, r, kRec709Luminance, mask);
+    EXPECT_EQ(m.relative_mse, 0);
+    EXPECT_EQ(m.log2_rms, 0);
+    EXPECT_EQ(m.max_difference, 0);
+    EXPECT_EQ(m.mean_difference, 0);
+    EXPECT_EQ(m.different, 0u);
+    EXPECT_EQ(m.not_finite_mismatch, 0u);
+    EXPECT_EQ(m.pixels, 34u);
+    EXPECT_DOUBLE_EQ(m.energy, 1);
+    EXPECT_GT(measure(a, r).max_difference, 0);
+}
+
+TEST(Metrics, AlphaCountsAsDifferent)
+{
+    Picture a = flat(2, 2, 1), r = a;
+    a.alpha = {1, 1, 1, 1};
+    r.alpha = {1, 1, 0, 1};
+    EXPECT_EQ(measure(a, r).different, 1u);
+    EXPECT_EQ(measure(a, a).different, 0u);
+}
+
 TEST(Metrics, AreDefinedForTheSmallestAndTheBlack)
 {
     const Metrics one = measure(flat(1, 1, 2), flat(1, 1, 1));

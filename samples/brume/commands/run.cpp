@@ -39,6 +39,8 @@ void add_run(CLI::App &app, Action &chosen)
     command->add_flag("--skip-existing", options->skip_existing, "Skip frames whose output exists");
     command->add_flag("--keep-going", options->keep_going, "Go on after a frame has failed");
     command->add_option("--stats", options->stats, "Write what was done, counted and timed as JSON")->type_name("FILE");
+    command->add_flag("!--no-provenance", options->provenance,
+                      "Leave out the attribute brume:provenance, which names version, backend and scene");
     command->add_flag("--quiet", options->quiet, "Say nothing but warnings and errors");
     command->callback([&chosen, options] { chosen = [options] { return run_sequence(*options); }; });
 }

@@ -14,6 +14,7 @@
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStringAttribute.h>
 #include <ImfTiledInputPart.h>
 #include <ImfTiledOutputPart.h>
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ constexpr float kHalfMax = 65504.0f;
 
 /// What describes the old pixels and would be false of the new ones.
 constexpr const char *kStaleAttributes[] = {"preview", "oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor",
-                                            "SHA-1",   "md5",        "checksum"};
+                                            "SHA-1",   "md5",        "checksum",          kProvenance};
 
 Plane from_floats(const ChannelInfo &channel, const float *in, std::size_t count, std::size_t stride,
                   std::atomic<std::uint64_t> &clamped)
@@ -117,6 +118,8 @@ Imf::Header header_of_rewritten(const Frame &frame, const std::vector<Plane> &ou
     Imf::Header header = frame.file.header(frame.color.part);
     for (const char *name : kStaleAttributes)
         header.erase(name);
+    if (!options.provenance.empty())
+        header.insert(kProvenance, Imf::StringAttribute(options.provenance));
     header.channels() = without_own_layers(header.channels(), view_prefix(frame));
     if (options.primaries_changed)
         header.erase("chromaticities");

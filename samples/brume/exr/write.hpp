@@ -17,8 +17,12 @@ struct AddedLayer {
     std::vector<float> pixels;  ///< interleaved
 };
 
+/// Attribute of the part with the colour: what made it. One of an earlier run is replaced or goes.
+constexpr const char *kProvenance = "brume:provenance";
+
 struct WriteOptions {
     bool primaries_changed = false;  ///< the colour has been converted: `chromaticities` would be false
+    std::string provenance = {};     ///< empty: not written
 };
 
 struct WriteReport {

@@ -51,10 +51,12 @@ template <class Source, class Region> Grid averaged(int width, int height, const
 }
 
 /// What the metrics compare. A component that is not finite in either picture counts in neither.
-Grid prepared(const Picture &picture, const Picture &other)
+Grid prepared(const Picture &picture, const Picture &other, const Mask &mask)
 {
     const int w = picture.width, h = picture.height;
     const auto source = [&](int x, int y, int c) {
+        if (!is_compared(mask, picture.index(x, y)))
+            return kNone;
         const double a = picture.at(x, y)[c], b = other.at(x, y)[c];
         return std::isfinite(a) && std::isfinite(b) ? a : kNone;
     };
@@ -86,23 +88,32 @@ struct Mean {
     double value() const { return count ? sum / double(count) : 0; }
 };
 
-void compare_pixels(const Picture &a, const Picture &r, Metrics &m)
+void compare_pixels(const Picture &a, const Picture &r, const Mask &mask, Metrics &m)
 {
-    const auto same_kind = [](float x, float y) {
-        return std::isnan(x) ? std::isnan(y) : std::isinf(x) ? x == y : std::isfinite(y);
-    };
+    Mean signed_difference;
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
+            if (!is_compared(mask, a.index(x, y)))
+                continue;
+            ++m.pixels;
             const float *p = a.at(x, y);
             const float *q = r.at(x, y);
             bool finite_a = true, finite_r = true, equal = true;
+            const auto compare_values = [&](float v, float w) {
+                finite_a &= std::isfinite(v);
+                finite_r &= std::isfinite(w);
+                m.not_finite_mismatch += !same_kind(v, w);
+                equal &= v == w || (std::isnan(v) && std::isnan(w));
+            };
+            if (!a.alpha.empty())
+                compare_values(a.alpha[a.index(x, y)], r.alpha[r.index(x, y)]);
             for (int c = 0; c < 3; ++c) {
-                finite_a &= std::isfinite(p[c]);
-                finite_r &= std::isfinite(q[c]);
-                m.not_finite_mismatch += !same_kind(p[c], q[c]);
-                equal &= p[c] == q[c] || (std::isnan(p[c]) && std::isnan(q[c]));
+                compare_values(p[c], q[c]);
+                if (!std::isfinite(p[c]) || !std::isfinite(q[c]))
+                    continue;
                 const double difference = std::abs(double(p[c]) - double(q[c]));
-                if (std::isfinite(p[c]) && std::isfinite(q[c]) && difference > m.max_difference) {
+                signed_difference.add(double(p[c]) - double(q[c]));
+                if (difference > m.max_difference) {
                     m.max_difference = difference;
                     m.max_x = a.x + x;
                     m.max_y = a.y + y;
@@ -115,17 +126,22 @@ void compare_pixels(const Picture &a, const Picture &r, Metrics &m)
             m.not_finite_reference += !finite_r;
             m.different += !equal;
         }
+    m.mean_difference = signed_difference.value();
 }
 
 }  // namespace
 
-Metrics measure(const Picture &a, const Picture &r, const LuminanceWeights &weights)
+bool same_kind(float a, float b)
+{
+    return std::isnan(a) ? std::isnan(b) : std::isinf(a) ? a == b : std::isfinite(b);
+}
+
+Metrics measure(const Picture &a, const Picture &r, const LuminanceWeights &weights, const Mask &mask)
 {
     Metrics m;
-    m.pixels = std::uint64_t(a.width) * std::uint64_t(a.height);
-    compare_pixels(a, r, m);
+    compare_pixels(a, r, mask, m);
 
-    const Grid fa = prepared(a, r), fr = prepared(r, a);
+    const Grid fa = prepared(a, r, mask), fr = prepared(r, a, mask);
     Mean mean_r, luminance_a, luminance_r;
     for (std::size_t i = 0; i < fr.values.size(); i += 3) {
         luminance_a.add(luminance(&fa.values[i], weights));
@@ -159,7 +175,8 @@ Picture box_blurred(const Picture &picture, int reach)
         return std::isfinite(v) ? v : kNone;
     };
     const Grid blurred = averaged(w, h, source, [&](int x, int y) {
-        return std::array{std::max(x - reach, 0), std::min(x + reach + 1, w), std::max(y - reach, 0), std::min(y + reach + 1, h)};
+        return std::array{std::max(x - reach, 0), std::min(x + reach + 1, w), std::max(y - reach, 0),
+                          std::min(y + reach + 1, h)};
     });
     Picture out = picture;
     std::copy(blurred.values.begin(), blurred.values.end(), out.rgb.begin());
@@ -177,6 +194,10 @@ void crop_to_common(Picture &a, Picture &b)
         for (int y = y0; y < y1; ++y) {
             const float *row = p.at(x0 - p.x, y - p.y);
             out.rgb.insert(out.rgb.end(), row, row + 3 * out.width);
+            if (!p.alpha.empty()) {
+                const auto from = p.alpha.begin() + std::ptrdiff_t(p.index(x0 - p.x, y - p.y));
+                out.alpha.insert(out.alpha.end(), from, from + out.width);
+            }
         }
         return out;
     };

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "run/calibration.hpp"
+#include "run/provenance.hpp"
 #include "run/scene.hpp"
 #include "support/error.hpp"
 
@@ -79,6 +80,9 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
     load_calibration(context_.get());
     scene_ = make_scene(context_.get(), text);
     const brume_scene scene = scene_.get();
+    brume_context_info context_info = BRUME_CONTEXT_INFO_INIT;
+    check_request(context_.get(), brume_context_get_info(context_.get(), &context_info), "");
+    provenance_ = provenance_of(text, options, context_info.backend);
     ask_for_quality();
     check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);

@@ -54,6 +54,8 @@ public:
     FogReport fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers);
 
     brume_context context() const { return context_.get(); }
+    /// What the frames' attribute says of it.
+    const std::string &provenance() const { return provenance_; }
     const brume_scene_info &scene_info() const { return scene_info_; }
 
 private:
@@ -63,6 +65,7 @@ private:
     FogOptions options_;
     ContextHandle context_;
     SceneHandle scene_;
+    std::string provenance_;
     std::uint32_t scene_camera_ = 0;
     brume_scene_info scene_info_ = BRUME_SCENE_INFO_INIT;
     std::vector<LayerOutput> outputs_;

@@ -239,7 +239,7 @@ private:
         if (frame.color.luminance)
             merge_luminance(frame, job.weights);
         colors_.from_working(frame.pixels.data(), job.stats.pixels, frame.channels);
-        const WriteReport report = write_frame(frame, job.layers, job.stats.files.output, {colors_.changes_space()});
+        const WriteReport report = write_frame(frame, job.layers, job.stats.files.output, {colors_.changes_space(), options_.provenance ? fogger_.provenance() : ""});
         if (previewed)
             write_png(preview_.at(job.stats.files.frame), frame.width, frame.height, preview);
         job.stats.clamped_values = report.clamped;

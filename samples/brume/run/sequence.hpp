@@ -17,7 +17,7 @@ struct SequenceOptions {
     std::string input, output, frames, preview, stats;
     int jobs = 0;              ///< 0: as many as there are threads
     std::uint64_t memory = 0;  ///< [MiB]; 0: half of the machine's
-    bool skip_existing = false, keep_going = false, quiet = false;
+    bool skip_existing = false, keep_going = false, quiet = false, provenance = true;
 };
 
 /// One picture with its depth, opened and resolved, pixels not yet read.

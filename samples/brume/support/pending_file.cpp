@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <system_error>
 
 #include <fcntl.h>
@@ -107,6 +108,14 @@ void PendingFile::commit()
     if (::rename(temporary_.c_str(), final_.c_str()) != 0)
         throw FrameError(fmt::format("{}: cannot be put in place: {}", final_.string(), std::strerror(errno)));
     committed_ = true;
+}
+
+void write_text_file(const std::filesystem::path &path, const std::string &text)
+{
+    PendingFile pending(path);
+    if (!(std::ofstream(pending.path(), std::ios::binary) << text).flush())
+        throw FrameError(fmt::format("{}: cannot be written", path.string()));
+    pending.commit();
 }
 
 void remove_pending_files()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace brume::tool {
 
@@ -21,6 +22,9 @@ private:
     int slot_ = -1;
     bool committed_ = false;
 };
+
+/// The file with this text, whole or not at all. Throws FrameError.
+void write_text_file(const std::filesystem::path &path, const std::string &text);
 
 /// Async-signal-safe.
 void remove_pending_files();

@@ -1,0 +1,71 @@
+#include "compare/difference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <fmt/format.h>
+
+#include "colour/png.hpp"
+#include "exr/output_stream.hpp"
+#include "support/error.hpp"
+#include "support/pending_file.hpp"
+
+namespace brume::tool {
+namespace {
+
+std::vector<float> absolute_difference(const Picture &a, const Picture &b)
+{
+    std::vector<float> difference(a.rgb.size());
+    std::transform(a.rgb.begin(), a.rgb.end(), b.rgb.begin(), difference.begin(),
+                   [](float x, float y) { return std::abs(x - y); });
+    return difference;
+}
+
+void write_exr(const std::string &path, const Picture &where, const std::vector<float> &rgb)
+{
+    const Imath::Box2i window({where.x, where.y}, {where.x + where.width - 1, where.y + where.height - 1});
+    Imf::Header header(window, window);
+    Imf::FrameBuffer buffer;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::string name(1, "RGB"[c]);
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, rgb.data() + c, window, 3 * sizeof(float)));
+    }
+    PendingFile pending(path);
+    OutputStream stream(pending.path().string(), path);
+    {
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(where.height);
+    }
+    stream.close();
+    pending.commit();
+}
+
+}  // namespace
+
+void check_difference_name(const std::string &path)
+{
+    if (!path.ends_with(".exr") && !path.ends_with(".png"))
+        throw RequestError(fmt::format("--difference '{}': expected a name ending in .png or .exr", path));
+}
+
+void write_difference(const std::string &path, const Picture &a, const Picture &b, double largest)
+{
+    const auto difference = absolute_difference(a, b);
+    if (path.ends_with(".exr"))
+        return write_exr(path, a, difference);
+    std::vector<std::uint8_t> rgb(difference.size());
+    std::transform(difference.begin(), difference.end(), rgb.begin(), [&](float d) {
+        if (!std::isfinite(d))
+            return std::uint8_t(255);
+        return std::uint8_t(std::lround(255 * std::sqrt(largest > 0 ? std::min(1.0, d / largest) : 0.0)));
+    });
+    write_png(path, a.width, a.height, rgb);
+}
+
+}  // namespace brume::tool
