@@ -76,6 +76,33 @@ TEST(Owned, SeveralAtOnceAndOneAfterAnother)
     }
 }
 
+// As brume_log_callback promises, though the work is done on the library's thread.
+TEST(Owned, LogsOnTheThreadOfTheCall)
+{
+    struct Received {
+        std::vector<std::pair<std::thread::id, std::string>> messages;
+        static void add(void *user, uint32_t, const char *message)
+        {
+            static_cast<Received *>(user)->messages.emplace_back(std::this_thread::get_id(), message);
+        }
+    } received;
+    const Log log{Received::add, &received, BRUME_LOG_WARNING};
+    auto backend = make_gl_backend(GlOptions{}, log);
+    backend->invoke([&] {
+        log(BRUME_LOG_WARNING, "first");
+        backend->invoke([&] { log(BRUME_LOG_WARNING, "second"); });
+    });
+    EXPECT_THROW(backend->invoke([&] {
+        log(BRUME_LOG_WARNING, "before a failure");
+        throw std::out_of_range("x");
+    }),
+                 std::out_of_range);
+    std::vector<std::pair<std::thread::id, std::string>> expected;
+    for (const char *message : {"first", "second", "before a failure"})
+        expected.emplace_back(std::this_thread::get_id(), message);
+    EXPECT_EQ(received.messages, expected);
+}
+
 TEST(Owned, HardwareIsNotSoftware)
 {
     const std::string device = owned_backend()->device();
