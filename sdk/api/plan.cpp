@@ -63,11 +63,11 @@ brume_image read_image(const brume_image *given, const char *name)
         if (!good)
             throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + "." + field + ": expected " + expected);
     };
-    check(image.kind <= BRUME_IMAGE_GL_TEXTURE, "kind", "a BRUME_IMAGE_...");
+    check(image.kind <= BRUME_IMAGE_GL_TEXTURE_TRUSTED, "kind", "a BRUME_IMAGE_...");
     check(image.pixel <= BRUME_PIXEL_F16, "pixel", "a BRUME_PIXEL_...");
     check(image.channels >= 1 && image.channels <= 4, "channels", "1 to 4");
     check(image.origin <= BRUME_ORIGIN_BOTTOM_LEFT, "origin", "a BRUME_ORIGIN_...");
-    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
+    if (image.kind != BRUME_IMAGE_HOST) {
         check(image.gl_texture != 0, "gl_texture", "the name of a texture");
     } else {
         check(image.data, "data", "memory");

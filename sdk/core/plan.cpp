@@ -66,6 +66,7 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
             images_.clear();
             between_[0] = between_[1] = nullptr;
             programs_.clear();
+            context_->backend->trim();
             throw;
         }
     });

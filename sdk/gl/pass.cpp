@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "gl/debug_group.h"
 #include "gl/image.h"
 #include "gl/program.h"
 
@@ -13,30 +14,6 @@ namespace brume::gl {
 namespace {
 
 constexpr int32_t group_side = 8;  // local_size in prelude.glsl
-
-// Names the pass in captures and debug logs.
-class DebugGroup {
-public:
-    explicit DebugGroup(const std::string &name)
-    {
-        GLint depth = 0, most = 0;
-        glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &depth);
-        glGetIntegerv(GL_MAX_DEBUG_GROUP_STACK_DEPTH, &most);
-        pushed_ = depth < most;
-        if (pushed_)
-            glPushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, 0, -1, name.substr(0, 200).c_str());
-    }
-    ~DebugGroup()
-    {
-        if (pushed_)
-            glPopDebugGroup();
-    }
-    DebugGroup(const DebugGroup &) = delete;
-    DebugGroup &operator=(const DebugGroup &) = delete;
-
-private:
-    bool pushed_;
-};
 
 class Dispatch {
 public:
@@ -49,7 +26,7 @@ public:
     {
         check();
         auto &program = static_cast<GlProgram &>(*pass_.program);
-        const DebugGroup group("brume: " + name_);
+        const DebugGroup group("brume: " + name_, guard_);
         set_uniforms(program, scene);
         bind(program);
         guard_.program();

@@ -108,6 +108,7 @@ public:
         return all;
     }
 
+    void trim() { check(brume_context_trim(get())); }
     void calibrate() { check(brume_context_calibrate(get())); }
     std::string calibration() const
     {
