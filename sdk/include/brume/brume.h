@@ -425,7 +425,7 @@ typedef struct brume_plan_info {
   double predicted_error;    /* that 95 of 100 frames keep below, as brume_quality.max_error counts; < 0: unknown */
   const char *quality;       /* what was chosen for the quality asked, and why; "" where none was asked */
   int64_t clamped_values;    /* of the last execute's half outputs: those beyond 65504, written as that; < 0 before one, and
-                                for half outputs on GL, where a count would have to be waited for. A first is logged. */
+                                for half and packed outputs on GL, where a count would have to be waited for. A first is logged. */
 } brume_plan_info;
 #define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0, 0.0, NULL, 0}
 BRUME_API brume_status brume_plan_get_info(brume_plan plan, brume_plan_info *info);
