@@ -130,6 +130,16 @@ brume_status brume_context_get_info(brume_context context, brume_context_info *i
     });
 }
 
+brume_status brume_context_trim(brume_context context)
+{
+    if (!context)
+        return barrier(nullptr, [] { expect(false, "context: NULL"); });
+    return barrier(context->context.get(), [&] {
+        Backend &backend = *context->context->backend;
+        backend.invoke([&] { backend.trim(); });
+    });
+}
+
 brume_status brume_context_calibrate(brume_context context)
 {
     if (!context)

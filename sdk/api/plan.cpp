@@ -99,11 +99,11 @@ brume_image read_image(const brume_image *given, const char *name)
         if (!good)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.{}: {}; expected {}", name, field, value, expected));
     };
-    check(image.kind <= BRUME_IMAGE_GL_TEXTURE, "kind", image.kind, "a BRUME_IMAGE_...");
+    check(image.kind <= BRUME_IMAGE_GL_TEXTURE_TRUSTED, "kind", image.kind, "a BRUME_IMAGE_...");
     check(image.pixel <= BRUME_PIXEL_F16, "pixel", image.pixel, "a BRUME_PIXEL_...");
     check(image.channels >= 1 && image.channels <= 4, "channels", image.channels, "1 to 4");
     check(image.origin <= BRUME_ORIGIN_BOTTOM_LEFT, "origin", image.origin, "a BRUME_ORIGIN_...");
-    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
+    if (image.kind != BRUME_IMAGE_HOST) {
         check(image.gl_texture != 0, "gl_texture", 0, "the name of a texture");
         return image;
     }

@@ -84,6 +84,8 @@ public:
     virtual int64_t finish_output(const brume_image &image, Image &written) = 0;
     // from's pixels to `to`, bit for bit where the formats are the same. Returns as finish_output() does.
     virtual int64_t copy(const brume_image &from, const brume_image &to) = 0;
+    // Frees every image that nobody holds.
+    virtual void trim() = 0;
     // Ends a frame: whatever the caller may do next sees what was written.
     virtual void flush() = 0;
 

@@ -16,9 +16,10 @@ inline bool other_channels(const HostPixels &a, const HostPixels &b)
 
 inline bool same_memory(const brume_image &a, const brume_image &b)
 {
-    if (a.kind != b.kind)
+    const bool texture = a.kind != BRUME_IMAGE_HOST;
+    if (texture != (b.kind != BRUME_IMAGE_HOST))
         return false;
-    if (a.kind == BRUME_IMAGE_GL_TEXTURE)
+    if (texture)
         return a.gl_texture == b.gl_texture;
     HostPixels pa(a), pb(b);
     return pa.begin() < pb.end() && pb.begin() < pa.end() && !other_channels(pa, pb);

@@ -84,6 +84,7 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
                 timer_ = context_->backend->create_timer();
         } catch (...) {
             release();
+            context_->backend->trim();
             throw;
         }
     });

@@ -1,6 +1,6 @@
 #include "core/text.h"
 
-#include <cstdint>
+#include <fmt/format.h>
 
 namespace brume {
 namespace {
@@ -58,6 +58,13 @@ std::string in_quotes(std::string_view text)
         text.remove_prefix(length == 0 ? 1 : length);
     }
     return out + '"';
+}
+
+std::string image_text(int32_t width, int32_t height, int32_t channels, const char *sample, uint64_t bytes)
+{
+    const bool large = bytes >= 100'000'000;
+    return fmt::format("{} x {} x {} {}{}, {:.1f} {}", width, height, channels, sample, channels == 1 ? "" : "s",
+                       double(bytes) * (large ? 1e-9 : 1e-6), large ? "GB" : "MB");
 }
 
 }  // namespace brume

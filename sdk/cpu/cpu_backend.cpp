@@ -1,7 +1,6 @@
 #include <atomic>
 #include <chrono>
-#include <list>
-#include <mutex>
+#include <stdexcept>
 #include <thread>
 
 #include <oneapi/tbb/blocked_range.h>
@@ -11,7 +10,9 @@
 
 #include "core/backend.h"
 #include "core/error.h"
+#include "core/idle_images.h"
 #include "core/pixels.h"
+#include "core/text.h"
 
 namespace brume {
 namespace {
@@ -20,67 +21,59 @@ struct CpuImage : Image {
     float *data = nullptr;
     int64_t row_stride = 0;  // in floats
     std::vector<float> owned;
-
-    uint64_t bytes() const { return owned.size() * sizeof(float); }
+    uint64_t bytes = 0;  // owned
+    uint64_t idle_since = 0;
 };
 
-// Images that nobody holds wait here for the next plan or frame of the same size: at most as many bytes as were ever in use
-// at once, so that sizes which never come back (a moving data window) do not pile up.
 class Pool : public std::enable_shared_from_this<Pool> {
 public:
     std::shared_ptr<CpuImage> take(int32_t width, int32_t height, int32_t channels)
     {
-        std::unique_ptr<CpuImage> image = find(width, height, channels);
+        std::unique_ptr<CpuImage> image = idle_.take(
+            [&](const CpuImage &one) { return one.width == width && one.height == height && one.channels == channels; });
         if (!image) {
-            image = std::make_unique<CpuImage>();
-            image->width = width;
-            image->height = height;
-            image->channels = channels;
-            image->row_stride = int64_t(width) * channels;
-            image->owned.resize(size_t(width) * size_t(height) * size_t(channels));
-            image->data = image->owned.data();
+            image = allocate(width, height, channels);
+            idle_.add(*image);
         }
-        std::lock_guard lock(mutex_);
-        used_ += image->bytes();
-        most_used_ = std::max(most_used_, used_);
-        return {image.release(), [pool = shared_from_this()](CpuImage *back) { pool->give(back); }};
+        return {image.release(),
+                [pool = shared_from_this()](CpuImage *back) { pool->idle_.put_back(std::unique_ptr<CpuImage>(back)); }};
     }
 
-    uint64_t bytes()
-    {
-        std::lock_guard lock(mutex_);
-        return used_ + idle_bytes_;
-    }
+    void age() { idle_.age(); }
+    void trim() { idle_.trim(); }
+    uint64_t bytes() const { return idle_.bytes(); }
 
 private:
-    std::unique_ptr<CpuImage> find(int32_t width, int32_t height, int32_t channels)
+    std::unique_ptr<CpuImage> allocate(int32_t width, int32_t height, int32_t channels)
     {
-        std::lock_guard lock(mutex_);
-        for (auto i = idle_.begin(); i != idle_.end(); ++i)
-            if ((*i)->width == width && (*i)->height == height && (*i)->channels == channels) {
-                auto image = std::move(*i);
-                idle_.erase(i);
-                idle_bytes_ -= image->bytes();
-                return image;
-            }
-        return nullptr;
-    }
-
-    void give(CpuImage *image)
-    {
-        std::lock_guard lock(mutex_);
-        used_ -= image->bytes();
-        idle_bytes_ += image->bytes();
-        idle_.emplace_front(image);
-        while (idle_bytes_ > most_used_) {
-            idle_bytes_ -= idle_.back()->bytes();
-            idle_.pop_back();
+        auto image = std::make_unique<CpuImage>();
+        image->width = width;
+        image->height = height;
+        image->channels = channels;
+        image->row_stride = int64_t(width) * channels;
+        const size_t samples = size_t(width) * size_t(height) * size_t(channels);
+        image->bytes = samples * sizeof(float);
+        if (!resize(image->owned, samples)) {
+            idle_.trim();
+            if (!resize(image->owned, samples))
+                throw Error(BRUME_ERROR_MEMORY,
+                            image_text(width, height, channels, "float", image->bytes) + ": out of memory");
         }
+        image->data = image->owned.data();
+        return image;
     }
 
-    std::mutex mutex_;
-    std::list<std::unique_ptr<CpuImage>> idle_;  // given back last first
-    uint64_t used_ = 0, most_used_ = 0, idle_bytes_ = 0;
+    static bool resize(std::vector<float> &values, size_t count)
+    try {
+        values.resize(count);
+        return true;
+    } catch (const std::bad_alloc &) {
+        return false;
+    } catch (const std::length_error &) {
+        return false;
+    }
+
+    IdleImages<CpuImage> idle_;
 };
 
 struct CpuPass : Pass {
@@ -144,7 +137,11 @@ public:
         return pass;
     }
 
-    std::unique_ptr<FrameTimer> create_timer() override { return std::make_unique<CpuTimer>(); }
+    std::unique_ptr<FrameTimer> create_timer() override
+    {
+        pool_->age();
+        return std::make_unique<CpuTimer>();
+    }
 
     void check(const brume_image &image, const char *what, bool) override
     {
@@ -211,7 +208,8 @@ public:
         return finish_output(to, *image);
     }
 
-    void flush() override {}
+    void flush() override { pool_->age(); }
+    void trim() override { pool_->trim(); }
 
     brume_status run(Pass &described, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
                      const brume_plugin_scene &scene, void *user, const Watch *watch) override

@@ -6,8 +6,8 @@
 
 namespace brume::gl {
 
-// Copies pixels between images of different formats: halves round to nearest even whatever the driver does, one channel
-// is spread over RGB with alpha 1, and of several the first becomes the one.
+// Copies pixels between images of different formats: halves and packed formats round to nearest even whatever the driver
+// does, one channel is spread over RGB with alpha 1, and of several the first becomes the one.
 class Converter {
 public:
     explicit Converter(std::shared_ptr<Disposal> disposal);
@@ -17,11 +17,13 @@ public:
     void store(const GlImage &from, const GlImage &to, const Samplers &samplers, StateGuard &guard);
 
 private:
-    void run(const GlImage &from, const GlImage &to, bool round_to_half, const Samplers &samplers, StateGuard &guard);
+    void run(const GlImage &from, const GlImage &to, int32_t rounding, const Samplers &samplers, StateGuard &guard);
 
     GlPass pass_;
 };
 
 bool is_half(GLenum format);
+// GL_R11F_G11F_B10F or GL_RGB10_A2, which only the converter writes.
+bool is_packed(GLenum format);
 
 }  // namespace brume::gl

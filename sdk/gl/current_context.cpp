@@ -3,31 +3,29 @@
 #include <dlfcn.h>
 
 namespace brume::gl {
-namespace {
 
-// Asks only a library that the process has loaded already: loading GLX beside an EGL host, or the reverse, could fail
-// or start a second driver, and a context of a library that is not there cannot be current.
-void *ask(const char *library, const char *function)
+ContextQuery::ContextQuery()
+    : egl_(find("libEGL.so.1", "eglGetCurrentContext")), glx_(find("libGLX.so.0", "glXGetCurrentContext"))
 {
-    void *handle = dlopen(library, RTLD_LAZY | RTLD_NOLOAD);
-    if (!handle)
-        return nullptr;
-    auto get_current = reinterpret_cast<void *(*)()>(dlsym(handle, function));
-    void *context = get_current ? get_current() : nullptr;
-    dlclose(handle);
-    return context;
+    if (!glx_.get_current)
+        glx_ = find("libGL.so.1", "glXGetCurrentContext");  // drivers without GLVND
 }
 
-}  // namespace
-
-CurrentContext current_context()
+CurrentContext ContextQuery::current() const
 {
-    CurrentContext current;
-    current.egl = ask("libEGL.so.1", "eglGetCurrentContext");
-    current.glx = ask("libGLX.so.0", "glXGetCurrentContext");
-    if (!current.glx)
-        current.glx = ask("libGL.so.1", "glXGetCurrentContext");  // drivers without GLVND
-    return current;
+    return {egl_.get_current ? egl_.get_current() : nullptr, glx_.get_current ? glx_.get_current() : nullptr};
+}
+
+// Only a library that the process has loaded already: loading GLX beside an EGL host, or the reverse, could fail or start
+// a second driver, and a context of a library that is not there cannot be current.
+ContextQuery::Function ContextQuery::find(const char *library, const char *function)
+{
+    Function found;
+    if (void *handle = dlopen(library, RTLD_LAZY | RTLD_NOLOAD)) {
+        found.library = {handle, dlclose};
+        found.get_current = reinterpret_cast<void *(*)()>(dlsym(handle, function));
+    }
+    return found;
 }
 
 }  // namespace brume::gl

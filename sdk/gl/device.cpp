@@ -18,9 +18,9 @@ std::string text(GLenum name)
 }
 
 // Empty if the current context will do, else why not.
-std::string why_unusable()
+std::string why_unusable(const ContextQuery &query)
 {
-    if (!current_context())
+    if (!query.current())
         return "no OpenGL context is current on the calling thread";
     if (!epoxy_is_desktop_gl() || epoxy_gl_version() < needed_version)
         return "the current context is \"" + text(GL_VERSION) + "\"; expected OpenGL 4.5 or later";
@@ -36,9 +36,11 @@ Device::Device(const GlOptions &options, const Log &log) : options_(options), lo
         thread_->invoke([&] { read_properties(); });
         return;
     }
-    if (const std::string reason = why_unusable(); !reason.empty())
+    const ContextQuery query;
+    if (const std::string reason = why_unusable(query); !reason.empty())
         throw Error(BRUME_ERROR_GL, "borrowed OpenGL context: " + reason);
-    borrowed_ = current_context();
+    report_host_error();
+    borrowed_ = std::make_shared<BorrowedContext>(query);
     read_properties();
 }
 
@@ -46,12 +48,10 @@ void Device::invoke(const std::function<void()> &work)
 {
     if (thread_)
         return thread_->invoke([&] { surround(work); });
-    const CurrentContext current = current_context();
-    if (!current)
-        throw Error(BRUME_ERROR_GL, "no OpenGL context is current on the calling thread; expected the one that the brume "
-                                    "context was created in");
-    if (current != *borrowed_)
-        throw Error(BRUME_ERROR_GL, "another OpenGL context is current than the one that the brume context was created in");
+    if (guard_)
+        return work();
+    if (const std::string reason = borrowed_->why_not_current(); !reason.empty())
+        throw Error(BRUME_ERROR_GL, reason);
     surround(work);
 }
 
@@ -67,7 +67,8 @@ void Device::read_properties()
     renderer_ = text(GL_RENDERER);
     GLint profile = 0;
     glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
-    compatibility_ = profile & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT;
+    properties_.compatibility = profile & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT;
+    glGetIntegerv(GL_MAX_DEBUG_GROUP_STACK_DEPTH, &properties_.most_debug_groups);
 }
 
 void Device::surround(const std::function<void()> &work)
@@ -75,7 +76,7 @@ void Device::surround(const std::function<void()> &work)
     if (guard_)
         return work();
     report_host_error();
-    guard_.emplace(borrowed() ? options_.state : BRUME_GL_STATE_OWNED, compatibility_);
+    guard_.emplace(borrowed() ? options_.state : BRUME_GL_STATE_OWNED, properties_);
     try {
         // The host may have read the images to be written, or written those to be read, through shaders.
         if (borrowed())
@@ -115,7 +116,7 @@ bool gl_is_hardware(const GlOptions &options)
 {
     using namespace gl;
     if (options.borrowed)
-        return why_unusable().empty() && !is_software(text(GL_RENDERER));
+        return why_unusable(ContextQuery()).empty() && !is_software(text(GL_RENDERER));
     static const bool owned = [] {
         try {
             GlThread thread;

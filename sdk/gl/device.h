@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "gl/current_context.h"
+#include "gl/borrowed_context.h"
 #include "gl/gl_backend.h"
 #include "gl/gl_thread.h"
 #include "gl/state_guard.h"
@@ -17,8 +17,8 @@ public:
     // Throws Error(BRUME_ERROR_GL) where there is no OpenGL 4.5.
     Device(const GlOptions &options, const Log &log);
 
-    bool borrowed() const { return borrowed_.has_value(); }
-    const std::optional<CurrentContext> &borrowed_context() const { return borrowed_; }
+    bool borrowed() const { return borrowed_ != nullptr; }
+    const std::shared_ptr<const BorrowedContext> &borrowed_context() const { return borrowed_; }
     const std::string &renderer() const { return renderer_; }
 
     void invoke(const std::function<void()> &work);
@@ -32,10 +32,10 @@ private:
 
     const GlOptions options_;
     const Log log_;
-    std::optional<CurrentContext> borrowed_;
+    std::shared_ptr<const BorrowedContext> borrowed_;
     std::unique_ptr<GlThread> thread_;
     std::string renderer_;
-    bool compatibility_ = false;
+    ContextProperties properties_;
     std::optional<StateGuard> guard_;
 };
 

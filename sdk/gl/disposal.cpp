@@ -7,7 +7,7 @@ void Disposal::add(Kind kind, GLuint name) noexcept
     std::lock_guard lock(mutex_);
     if (!closed_)
         waiting_.emplace_back(kind, name);
-    else if (borrowed_ && *borrowed_ == current_context())
+    else if (borrowed_ && borrowed_->is_current())
         destroy(kind, name);
 }
 

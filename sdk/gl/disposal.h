@@ -1,12 +1,12 @@
 #pragma once
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
 
-#include "gl/current_context.h"
+#include "gl/borrowed_context.h"
 
 namespace brume::gl {
 
@@ -16,7 +16,7 @@ public:
     enum class Kind { texture, program, query };
 
     // borrowed: the host's context; none: a context that ends with its backend and takes its objects along.
-    explicit Disposal(std::optional<CurrentContext> borrowed) : borrowed_(borrowed) {}
+    explicit Disposal(std::shared_ptr<const BorrowedContext> borrowed) : borrowed_(std::move(borrowed)) {}
 
     // On any thread.
     void add(Kind kind, GLuint name) noexcept;
@@ -28,7 +28,7 @@ public:
 private:
     static void destroy(Kind kind, GLuint name);
 
-    const std::optional<CurrentContext> borrowed_;
+    const std::shared_ptr<const BorrowedContext> borrowed_;
     std::mutex mutex_;
     std::vector<std::pair<Kind, GLuint>> waiting_;
     bool closed_ = false;

@@ -33,6 +33,8 @@ std::string error_name(GLenum error)
 GLenum take_error()
 {
     const GLenum first = glGetError();
+    if (first == GL_NO_ERROR)
+        return first;
     // Bounded: a lost context may report GL_CONTEXT_LOST for ever.
     for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
     }

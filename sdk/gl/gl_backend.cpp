@@ -25,6 +25,11 @@ uint32_t pixel_of(GLenum format)
     return is_half(format) ? BRUME_PIXEL_F16 : BRUME_PIXEL_F32;
 }
 
+bool is_texture(const brume_image &image)
+{
+    return image.kind != BRUME_IMAGE_HOST;
+}
+
 const char *name_of(int32_t channels)
 {
     return channels == 1 ? "depth" : "color";
@@ -40,12 +45,12 @@ public:
     uint32_t threads() const override { return 1; }
     uint64_t host_bytes() const override { return 0; }
     uint64_t device_bytes() const override { return pool_->bytes(); }
-    void invoke(const std::function<void()> &work) override { device_.invoke(work); }
+    void invoke(const std::function<void()> &work) override;
     int32_t largest_size() const override { return pool_->largest_size(); }
 
     std::shared_ptr<Image> create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel) override;
     std::shared_ptr<Pass> create_pass(const brume_pass_desc &desc, PassLayout layout) override;
-    std::unique_ptr<FrameTimer> create_timer() override { return std::make_unique<GlTimer>(disposal_); }
+    std::unique_ptr<FrameTimer> create_timer() override;
 
     void check(const brume_image &image, const char *what, bool writable) override;
     uint32_t pixel(const brume_image &image) override;
@@ -53,12 +58,14 @@ public:
     std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) override;
     int64_t finish_output(const brume_image &image, Image &written) override;
     int64_t copy(const brume_image &from, const brume_image &to) override;
+    void trim() override;
     void flush() override;
 
     brume_status run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
                      const brume_plugin_scene &scene, void *user, const Watch *watch) override;
 
 private:
+    HostTexture look_at(const brume_image &image, const std::string &what);
     bool stores_round_to_nearest();
     void bring(const GlImage &from, const GlImage &to);
 
@@ -69,6 +76,7 @@ private:
     std::map<std::tuple<std::string, std::string, std::string>, std::shared_ptr<GlProgram>> programs_;
     std::optional<Converter> converter_;
     Samplers samplers_;
+    std::map<GLuint, HostTexture> seen_;  // in this invoke()
     bool direct_half_stores_ = false;
 };
 
@@ -98,6 +106,34 @@ GlBackend::~GlBackend()
     } catch (const std::exception &error) {
         log_(BRUME_LOG_WARNING, std::string("OpenGL objects of a brume context are left behind: ") + error.what());
     }
+}
+
+void GlBackend::invoke(const std::function<void()> &work)
+{
+    device_.invoke([&] {
+        seen_.clear();
+        work();
+        disposal_->collect();
+    });
+}
+
+// A plan is being made; where plans are made and destroyed without a frame, their images must not pile up either.
+std::unique_ptr<FrameTimer> GlBackend::create_timer()
+{
+    pool_->age();
+    return std::make_unique<GlTimer>(disposal_);
+}
+
+// Each question to the driver may wait for its thread, so a frame asks once of each texture.
+HostTexture GlBackend::look_at(const brume_image &image, const std::string &what)
+{
+    if (image.kind == BRUME_IMAGE_GL_TEXTURE_TRUSTED)
+        return trusted(image, what);
+    auto found = seen_.find(image.gl_texture);
+    if (found == seen_.end())
+        found = seen_.emplace(image.gl_texture, inspect(image.gl_texture, what, device_.guard())).first;
+    require_size(found->second, image, what);
+    return found->second;
 }
 
 std::shared_ptr<Image> GlBackend::create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel)
@@ -137,25 +173,26 @@ void GlBackend::check(const brume_image &image, const char *what, bool writable)
         throw Error(BRUME_ERROR_UNSUPPORTED, label +
                                                  ": a GL texture was given to a context of BRUME_GL_OWNED; expected host "
                                                  "memory, or a context of BRUME_GL_BORROWED");
-    device_.guard();
-    const HostTexture texture = inspect(image, label, device_.guard());
+    const HostTexture texture = look_at(image, label);
     if (writable)
         require_writable(texture, int32_t(image.channels), label);
 }
 
 uint32_t GlBackend::pixel(const brume_image &image)
 {
-    device_.guard();
-    return image.kind == BRUME_IMAGE_GL_TEXTURE ? pixel_of(inspect(image, "output", device_.guard()).format) : image.pixel;
+    return is_texture(image) ? pixel_of(look_at(image, "output").format) : image.pixel;
 }
 
 std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t channels)
 {
     StateGuard &guard = device_.guard();
-    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
-        const HostTexture texture = inspect(image, name_of(channels), device_.guard());
+    if (is_texture(image)) {
+        const HostTexture texture = look_at(image, name_of(channels));
         require_readable(texture, channels, name_of(channels));
-        return wrap(texture);
+        auto wrapped = wrap(texture);
+        if (image.kind == BRUME_IMAGE_GL_TEXTURE_TRUSTED)
+            wrapped->format = GL_NONE;  // the host says what outputs are only
+        return wrapped;
     }
     auto imported = pool_->take(image.width, image.height, channels, image.pixel);
     upload(image, *imported, guard);
@@ -167,12 +204,13 @@ std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t chann
 std::shared_ptr<Image> GlBackend::begin_output(const brume_image &image, int32_t channels, bool direct)
 {
     device_.guard();
-    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
-        const HostTexture texture = inspect(image, "output", device_.guard());
+    if (is_texture(image)) {
+        const HostTexture texture = look_at(image, "output");
         require_writable(texture, channels, "output");
         auto wrapped = wrap(texture);
         const uint32_t pixel = pixel_of(texture.format);
-        if (direct && wrapped->channels == channels && (pixel == BRUME_PIXEL_F32 || direct_half_stores_))
+        if (direct && wrapped->channels == channels && !is_packed(texture.format) &&
+            (pixel == BRUME_PIXEL_F32 || direct_half_stores_))
             return wrapped;
     }
     return pool_->take(image.width, image.height, channels, BRUME_PIXEL_F32);
@@ -183,9 +221,9 @@ int64_t GlBackend::finish_output(const brume_image &image, Image &written)
 {
     StateGuard &guard = device_.guard();
     const auto &from = static_cast<const GlImage &>(written);
-    if (image.kind == BRUME_IMAGE_GL_TEXTURE) {
+    if (is_texture(image)) {
         if (from.texture != image.gl_texture)
-            bring(from, *wrap(inspect(image, "output", device_.guard())));
+            bring(from, *wrap(look_at(image, "output")));
     } else if (from.format == image_format(from.channels, image.pixel)) {
         download(from, image, guard);
     } else {
@@ -193,7 +231,8 @@ int64_t GlBackend::finish_output(const brume_image &image, Image &written)
         converter_->convert(from, *converted, samplers_, guard);
         download(*converted, image, guard);
     }
-    return pixel(image) == BRUME_PIXEL_F16 ? not_counted : 0;
+    const bool clamps = is_texture(image) && is_packed(look_at(image, "output").format);
+    return clamps || pixel(image) == BRUME_PIXEL_F16 ? not_counted : 0;
 }
 
 int64_t GlBackend::copy(const brume_image &from, const brume_image &to)
@@ -211,13 +250,18 @@ void GlBackend::bring(const GlImage &from, const GlImage &to)
         converter_->convert(from, to, samplers_, device_.guard());
 }
 
+void GlBackend::trim()
+{
+    pool_->trim();
+    disposal_->collect();
+}
+
 void GlBackend::flush()
 {
     device_.guard();
     if (device_.borrowed())
         glMemoryBarrier(GL_ALL_BARRIER_BITS);
     pool_->age();
-    disposal_->collect();
 }
 
 brume_status GlBackend::run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,

@@ -1,5 +1,6 @@
 #include "gl/gl_thread.h"
 
+#include "core/log.h"
 #include "gl/egl_context.h"
 
 namespace brume::gl {
@@ -31,13 +32,26 @@ void GlThread::invoke(const std::function<void()> &work)
 {
     if (std::this_thread::get_id() == thread_.get_id())
         return work();
-    Task task(std::ref(work));
+    std::vector<DeferredLog::Message> messages;
+    Task task([&] {
+        DeferredLog log;
+        try {
+            work();
+        } catch (...) {
+            messages = log.take();
+            throw;
+        }
+        messages = log.take();
+    });
     std::future<void> done = task.get_future();
     {
         std::lock_guard lock(mutex_);
         tasks_.push(std::move(task));
     }
     wake_.notify_one();
+    done.wait();
+    for (const DeferredLog::Message &message : messages)
+        message.log(message.level, message.text);
     done.get();
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "gl/debug_group.h"
 #include "gl/error.h"
 
 namespace brume::gl {
@@ -75,19 +76,36 @@ std::string format_text(GLenum format)
     throw Error(status, what + ": texture " + std::to_string(texture) + " " + problem);
 }
 
-// A minification filter that wants mipmaps makes a texture without them incomplete, for image stores and copies too.
-void require_complete(const brume_image &image, const std::string &what)
+// Mesa answers GL_TEXTURE_TARGET in core profiles only, and no OpenGL does for buffer textures, which have one row. Else
+// binding tells, by an error that must not reach the debug log of the host.
+bool is_2d(GLuint texture, GLint height, StateGuard &guard)
 {
-    const GLuint texture = image.gl_texture;
+    if (!guard.compatibility() && height > 1)
+        return parameter(texture, GL_TEXTURE_TARGET) == GL_TEXTURE_2D;
+    throw_on_error("before looking at textures");
+    guard.texture_unit(0);
+    const DebugGroup group("brume: look at textures", guard);
+    group.silence_errors();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    return take_error() == GL_NO_ERROR;
+}
+
+// A minification filter that wants mipmaps makes a texture without them incomplete, for image stores and copies too.
+void require_complete(const HostTexture &looked_at, const std::string &what)
+{
+    const GLuint texture = looked_at.name;
+    if (parameter(texture, GL_TEXTURE_IMMUTABLE_FORMAT))
+        return;
     const GLint filter = parameter(texture, GL_TEXTURE_MIN_FILTER);
-    if (parameter(texture, GL_TEXTURE_IMMUTABLE_FORMAT) || filter == GL_NEAREST || filter == GL_LINEAR)
+    if (filter == GL_NEAREST || filter == GL_LINEAR)
         return;
     int last = 0;
-    for (int32_t side = std::max(image.width, image.height); side > 1; side /= 2)
+    for (int32_t side = std::max(looked_at.width, looked_at.height); side > 1; side /= 2)
         ++last;
     last = std::min(last, parameter(texture, GL_TEXTURE_MAX_LEVEL));
     for (int level = 1; level <= last; ++level)
-        if (level_parameter(texture, level, GL_TEXTURE_WIDTH) != std::max(1, image.width >> level))
+        if (level_parameter(texture, level, GL_TEXTURE_WIDTH) != std::max(1, looked_at.width >> level))
             refuse(BRUME_ERROR_ARGUMENT, what, texture,
                    "is incomplete: its GL_TEXTURE_MIN_FILTER wants mipmaps and level " + std::to_string(level) +
                        " is missing; expected all levels, GL_NEAREST, GL_LINEAR or GL_TEXTURE_MAX_LEVEL 0");
@@ -109,58 +127,95 @@ void require_plain_sampling(const HostTexture &texture, const std::string &what)
                    "is swizzled (GL_TEXTURE_SWIZZLE_RGBA); expected the initial swizzle");
 }
 
-}  // namespace
-
-HostTexture inspect(const brume_image &image, const std::string &what, StateGuard &guard)
+// Whether it can be read as colour or as one channel; returns whether it is depth. Formats in common use are known by name,
+// which spares four questions to the driver.
+bool classify(HostTexture &texture)
 {
-    const GLuint name = image.gl_texture;
-    if (!glIsTexture(name))
-        refuse(BRUME_ERROR_ARGUMENT, what, name, "does not exist in the current context");
-    // By binding: Mesa answers GL_TEXTURE_TARGET in core profiles only.
-    throw_on_error("before looking at textures");
-    guard.texture_unit(0);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, name);
-    if (take_error() != GL_NO_ERROR)
-        refuse(BRUME_ERROR_UNSUPPORTED, what, name, "is no GL_TEXTURE_2D");
-
-    HostTexture texture{};
-    texture.name = name;
-    texture.width = level_parameter(name, 0, GL_TEXTURE_WIDTH);
-    texture.height = level_parameter(name, 0, GL_TEXTURE_HEIGHT);
-    texture.format = GLenum(level_parameter(name, 0, GL_TEXTURE_INTERNAL_FORMAT));
-    if (texture.width == 0)
-        refuse(BRUME_ERROR_ARGUMENT, what, name, "has no level 0");
-    if (texture.width != image.width || texture.height != image.height)
-        refuse(BRUME_ERROR_ARGUMENT, what, name,
-               "is " + std::to_string(texture.width) + " x " + std::to_string(texture.height) + "; the image says " +
-                   std::to_string(image.width) + " x " + std::to_string(image.height));
-
+    switch (texture.format) {
+    case GL_RGBA16F:
+    case GL_RGBA32F:
+    case GL_R11F_G11F_B10F:
+    case GL_RGB10_A2:
+        texture.color = true;
+        return false;
+    case GL_R16:
+    case GL_R16F:
+    case GL_R32F:
+    case GL_RG32F:
+        texture.scalar = true;
+        return false;
+    case GL_DEPTH_COMPONENT16:
+    case GL_DEPTH_COMPONENT24:
+    case GL_DEPTH_COMPONENT32F:
+    case GL_DEPTH24_STENCIL8:
+    case GL_DEPTH32F_STENCIL8:
+        texture.scalar = true;
+        return true;
+    default:
+        break;
+    }
     const auto real = [&](GLenum component) {
-        const GLint type = level_parameter(name, 0, component);
+        const GLint type = level_parameter(texture.name, 0, component);
         return type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
     };
     const bool depth = real(GL_TEXTURE_DEPTH_TYPE);
     texture.color = real(GL_TEXTURE_RED_TYPE) && real(GL_TEXTURE_GREEN_TYPE) && real(GL_TEXTURE_BLUE_TYPE);
-    texture.scalar = depth || texture.format == GL_R16F || texture.format == GL_R32F;
+    texture.scalar = depth;
+    return depth;
+}
+
+}  // namespace
+
+HostTexture inspect(GLuint name, const std::string &what, StateGuard &guard)
+{
+    if (!glIsTexture(name))
+        refuse(BRUME_ERROR_ARGUMENT, what, name, "does not exist in the current context");
+    HostTexture texture{};
+    texture.name = name;
+    texture.width = level_parameter(name, 0, GL_TEXTURE_WIDTH);
+    texture.height = level_parameter(name, 0, GL_TEXTURE_HEIGHT);
+    if (!is_2d(name, texture.height, guard))
+        refuse(BRUME_ERROR_UNSUPPORTED, what, name, "is no GL_TEXTURE_2D");
+    texture.format = GLenum(level_parameter(name, 0, GL_TEXTURE_INTERNAL_FORMAT));
+    if (texture.width == 0)
+        refuse(BRUME_ERROR_ARGUMENT, what, name, "has no level 0");
+
+    const bool depth = classify(texture);
     if (!texture.color && !texture.scalar)
         refuse(BRUME_ERROR_UNSUPPORTED, what, name,
                "is " + format_text(texture.format) +
                    "; expected a floating-point or normalised format with red, green and "
-                   "blue for colour, GL_R16F, GL_R32F or a depth format for depth");
+                   "blue for colour, GL_R16, GL_R16F, GL_R32F, GL_RG32F or a depth format for depth");
     if (depth && parameter(name, GL_DEPTH_STENCIL_TEXTURE_MODE) != GL_DEPTH_COMPONENT)
         refuse(BRUME_ERROR_UNSUPPORTED, what, name,
                "is sampled as stencil; expected GL_DEPTH_STENCIL_TEXTURE_MODE GL_DEPTH_COMPONENT");
-    require_complete(image, what);
+    require_complete(texture, what);
     require_plain_sampling(texture, what);
     return texture;
+}
+
+HostTexture trusted(const brume_image &image, const std::string &what)
+{
+    const bool scalar = image.channels == 1, color = image.channels >= 3;
+    if (!scalar && !color)
+        refuse(BRUME_ERROR_ARGUMENT, what, image.gl_texture,
+               "is trusted with " + std::to_string(image.channels) + " channels; expected 1, 3 or 4");
+    return {image.gl_texture, image.width, image.height, image_format(scalar ? 1 : 4, image.pixel), color, scalar};
+}
+
+void require_size(const HostTexture &texture, const brume_image &image, const std::string &what)
+{
+    if (texture.width != image.width || texture.height != image.height)
+        refuse(BRUME_ERROR_ARGUMENT, what, texture.name,
+               "is " + std::to_string(texture.width) + " x " + std::to_string(texture.height) + "; the image says " +
+                   std::to_string(image.width) + " x " + std::to_string(image.height));
 }
 
 void require_readable(const HostTexture &texture, int32_t channels, const std::string &what)
 {
     if (channels == 1 && !texture.scalar)
         refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
-               "is " + format_text(texture.format) + "; expected GL_R16F, GL_R32F or a depth format");
+               "is " + format_text(texture.format) + "; expected GL_R16, GL_R16F, GL_R32F, GL_RG32F or a depth format");
     if (channels == 4 && !texture.color)
         refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
                "is " + format_text(texture.format) + "; expected a format with red, green and blue");
@@ -168,11 +223,12 @@ void require_readable(const HostTexture &texture, int32_t channels, const std::s
 
 void require_writable(const HostTexture &texture, int32_t channels, const std::string &what)
 {
-    const bool scalar = texture.format == GL_R16F || texture.format == GL_R32F;
-    if (texture.format != GL_RGBA16F && texture.format != GL_RGBA32F && !(channels == 1 && scalar))
+    const bool own = channels == 1 ? texture.format == GL_R16F || texture.format == GL_R32F
+                                   : texture.format == GL_R11F_G11F_B10F || texture.format == GL_RGB10_A2;
+    if (texture.format != GL_RGBA16F && texture.format != GL_RGBA32F && !own)
         refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
-               "is " + format_text(texture.format) + "; expected GL_RGBA16F or GL_RGBA32F" +
-                   (channels == 1 ? ", GL_R16F or GL_R32F" : "") + " for an output");
+               "is " + format_text(texture.format) + "; expected GL_RGBA16F, GL_RGBA32F, " +
+                   (channels == 1 ? "GL_R16F or GL_R32F" : "GL_R11F_G11F_B10F or GL_RGB10_A2") + " for an output");
 }
 
 std::shared_ptr<GlImage> wrap(const HostTexture &texture)

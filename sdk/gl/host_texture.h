@@ -18,8 +18,13 @@ struct HostTexture {
     bool scalar;    // one floating-point channel, or depth
 };
 
-// Throws Error unless it exists, is two-dimensional, complete, of the image's size, and sampled as it is stored.
-HostTexture inspect(const brume_image &image, const std::string &what, StateGuard &guard);
+// Throws Error unless it exists, is two-dimensional, complete, and sampled as it is stored.
+HostTexture inspect(GLuint name, const std::string &what, StateGuard &guard);
+
+// What the image says of itself, of which OpenGL is not asked.
+HostTexture trusted(const brume_image &image, const std::string &what);
+
+void require_size(const HostTexture &texture, const brume_image &image, const std::string &what);
 
 // Throw Error where this kind of texture does not serve as an image of that many channels (1: depth or blur radius).
 void require_readable(const HostTexture &texture, int32_t channels, const std::string &what);

@@ -1,17 +1,14 @@
 #include "gl/image.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "gl/error.h"
 
 namespace brume::gl {
 namespace {
-
-// Plans used in turn, or a resized window that snaps back, find their images again within this many frames.
-constexpr uint64_t idle_frames = 8;
 
 struct Format {
     GLenum name;
@@ -29,6 +26,12 @@ constexpr Format formats[] = {
 const Format &format_of(GLenum name)
 {
     return *std::find_if(std::begin(formats), std::end(formats), [&](const Format &f) { return f.name == name; });
+}
+
+uint64_t bytes_of(int32_t width, int32_t height, GLenum name)
+{
+    const Format &format = format_of(name);
+    return uint64_t(width) * uint64_t(height) * uint64_t(format.channels) * (format.pixel == BRUME_PIXEL_F16 ? 2 : 4);
 }
 
 }  // namespace
@@ -65,51 +68,24 @@ std::shared_ptr<GlImage> ImagePool::take(int32_t width, int32_t height, int32_t 
                                                  " is larger than this device's textures, which have at most " +
                                                  std::to_string(largest_size_) + " pixels a side");
 
-    std::unique_ptr<GlImage> image = find_idle(width, height, format);
-    if (!image)
-        image = allocate(width, height, channels, format);
+    std::unique_ptr<GlImage> image =
+        idle_.take([&](const GlImage &one) { return one.width == width && one.height == height && one.format == format; });
     if (!image) {
-        free_idle(std::numeric_limits<uint64_t>::max());
-        disposal_->collect();
         image = allocate(width, height, channels, format);
+        if (!image) {
+            idle_.trim();
+            disposal_->collect();
+            image = allocate(width, height, channels, format);
+        }
+        if (!image)
+            throw Error(BRUME_ERROR_MEMORY, image_text(width, height, channels, pixel == BRUME_PIXEL_F16 ? "half" : "float",
+                                                       bytes_of(width, height, format)) +
+                                                ": out of device memory, of which " + std::to_string(bytes() / 1000000) +
+                                                " MB are in use");
+        idle_.add(*image);
     }
-    if (!image)
-        throw Error(BRUME_ERROR_MEMORY, "no device memory for an image of " + size + " " + format_of(format).text + "; " +
-                                            std::to_string(bytes_ >> 20) + " MiB are in use");
-    return {image.release(), [pool = shared_from_this()](GlImage *back) { pool->put_back(std::unique_ptr<GlImage>(back)); }};
-}
-
-void ImagePool::age()
-{
-    uint64_t frame;
-    {
-        std::lock_guard lock(mutex_);
-        frame = ++frame_;
-    }
-    if (frame > idle_frames)
-        free_idle(frame - idle_frames);
-}
-
-void ImagePool::close()
-{
-    {
-        std::lock_guard lock(mutex_);
-        closed_ = true;
-    }
-    free_idle(std::numeric_limits<uint64_t>::max());
-}
-
-std::unique_ptr<GlImage> ImagePool::find_idle(int32_t width, int32_t height, GLenum format)
-{
-    std::lock_guard lock(mutex_);
-    auto found = std::find_if(idle_.begin(), idle_.end(), [&](const auto &image) {
-        return image->width == width && image->height == height && image->format == format;
-    });
-    if (found == idle_.end())
-        return nullptr;
-    std::unique_ptr<GlImage> image = std::move(*found);
-    idle_.erase(found);
-    return image;
+    return {image.release(),
+            [pool = shared_from_this()](GlImage *back) { pool->idle_.put_back(std::unique_ptr<GlImage>(back)); }};
 }
 
 std::unique_ptr<GlImage> ImagePool::allocate(int32_t width, int32_t height, int32_t channels, GLenum format)
@@ -132,37 +108,8 @@ std::unique_ptr<GlImage> ImagePool::allocate(int32_t width, int32_t height, int3
     image->height = height;
     image->channels = channels;
     image->format = format;
-    image->bytes = uint64_t(width) * uint64_t(height) * uint64_t(channels) * (layout.pixel == BRUME_PIXEL_F16 ? 2 : 4);
-    {
-        std::lock_guard lock(mutex_);
-        idle_.reserve(++count_);  // so that put_back() cannot fail
-    }
-    bytes_ += image->bytes;
+    image->bytes = bytes_of(width, height, format);
     return image;
-}
-
-void ImagePool::put_back(std::unique_ptr<GlImage> image) noexcept
-{
-    std::unique_lock lock(mutex_);
-    if (closed_) {
-        bytes_ -= image->bytes;
-        lock.unlock();
-        return;
-    }
-    image->idle_since = frame_;
-    idle_.push_back(std::move(image));
-}
-
-void ImagePool::free_idle(uint64_t idle_before)
-{
-    std::lock_guard lock(mutex_);
-    std::erase_if(idle_, [&](const auto &image) {
-        if (image->idle_since >= idle_before)
-            return false;
-        bytes_ -= image->bytes;
-        --count_;
-        return true;
-    });
 }
 
 }  // namespace brume::gl

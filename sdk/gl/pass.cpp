@@ -6,36 +6,13 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "gl/debug_group.h"
 #include "gl/image.h"
 
 namespace brume::gl {
 namespace {
 
 constexpr int32_t group_side = 8;  // local_size in prelude.glsl
-
-// Names the pass in captures and debug logs.
-class DebugGroup {
-public:
-    explicit DebugGroup(const std::string &label)
-    {
-        GLint depth = 0, most = 0;
-        glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &depth);
-        glGetIntegerv(GL_MAX_DEBUG_GROUP_STACK_DEPTH, &most);
-        pushed_ = depth < most;
-        if (pushed_)
-            glPushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, 0, -1, label.c_str());
-    }
-    ~DebugGroup()
-    {
-        if (pushed_)
-            glPopDebugGroup();
-    }
-    DebugGroup(const DebugGroup &) = delete;
-    DebugGroup &operator=(const DebugGroup &) = delete;
-
-private:
-    bool pushed_;
-};
 
 // Reads give (0, 0, 0, 1), writes are dropped; what the host has on that unit is not seen.
 void bind_nothing(GLuint unit, bool write, const Samplers &samplers, StateGuard &guard)
@@ -145,7 +122,7 @@ void GlPass::set_constants(const void *constants)
 void GlPass::run(const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
                  const brume_plugin_scene &scene, const Samplers &samplers, StateGuard &guard)
 {
-    const DebugGroup group(label_);
+    const DebugGroup group(label_, guard);
     set_constants(constants);
     program_->set_scene(scene);
     program_->set_grid(width, height);

@@ -119,7 +119,7 @@ void upload(const brume_image &from, const GlImage &to, StateGuard &guard)
 {
     const HostPixels host(from);
     const Layout layout(host, to);
-    guard.pixel_transfer();
+    guard.unpack();
     if (layout.describes(host, to)) {
         glPixelStorei(GL_UNPACK_ROW_LENGTH, GLint(host.row_stride / layout.pixel_bytes));
         glTextureSubImage2D(to.texture, 0, 0, 0, host.width, host.height, layout.format, layout.type, host.data);
@@ -135,7 +135,7 @@ void download(const GlImage &from, const brume_image &to, StateGuard &guard)
 {
     const HostPixels host(to);
     const Layout layout(host, from);
-    guard.pixel_transfer();
+    guard.pack();
     if (layout.describes(host, from)) {
         glPixelStorei(GL_PACK_ROW_LENGTH, GLint(host.row_stride / layout.pixel_bytes));
         for_bands(host.height, host.row_stride, largest_read, [&](int32_t first, int32_t rows) {

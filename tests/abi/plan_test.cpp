@@ -250,7 +250,7 @@ TEST_P(Plans, ImagesRefuseNonsense)
         const char *named;
     };
     const Case cases[] = {
-        {[](auto &i) { i.kind = 2; }, ".kind"},
+        {[](auto &i) { i.kind = 3; }, ".kind"},
         {[](auto &i) { i.pixel = 2; }, ".pixel"},
         {[](auto &i) { i.channels = 0; }, ".channels"},
         {[](auto &i) { i.channels = 5; }, ".channels"},

@@ -1,4 +1,5 @@
 // Owned and borrowed contexts: which thread, which context, whose errors; the host's textures.
+#include <array>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -74,6 +75,33 @@ TEST(Owned, SeveralAtOnceAndOneAfterAnother)
         a.reset();
         EXPECT_EQ(scaled(*b, 3), expected(3));
     }
+}
+
+// As brume_log_callback promises, though the work is done on the library's thread.
+TEST(Owned, LogsOnTheThreadOfTheCall)
+{
+    struct Received {
+        std::vector<std::pair<std::thread::id, std::string>> messages;
+        static void add(void *user, uint32_t, const char *message)
+        {
+            static_cast<Received *>(user)->messages.emplace_back(std::this_thread::get_id(), message);
+        }
+    } received;
+    const Log log{Received::add, &received, BRUME_LOG_WARNING};
+    auto backend = make_gl_backend(GlOptions{}, log);
+    backend->invoke([&] {
+        log(BRUME_LOG_WARNING, "first");
+        backend->invoke([&] { log(BRUME_LOG_WARNING, "second"); });
+    });
+    EXPECT_THROW(backend->invoke([&] {
+        log(BRUME_LOG_WARNING, "before a failure");
+        throw std::out_of_range("x");
+    }),
+                 std::out_of_range);
+    std::vector<std::pair<std::thread::id, std::string>> expected;
+    for (const char *message : {"first", "second", "before a failure"})
+        expected.emplace_back(std::this_thread::get_id(), message);
+    EXPECT_EQ(received.messages, expected);
 }
 
 TEST(Owned, HardwareIsNotSoftware)
@@ -163,7 +191,7 @@ TEST(Borrowed, DeletesItsObjects)
     auto names = [] {
         int count = 0;
         for (GLuint name = 1; name < 200; ++name)
-            count += glIsTexture(name) + glIsProgram(name) + glIsSampler(name) + glIsQuery(name);
+            count += glIsTexture(name) + glIsProgram(name) + glIsSampler(name) + glIsQuery(name) + glIsProgramPipeline(name);
         return count;
     };
     auto backend = borrowed_backend();
@@ -181,6 +209,55 @@ TEST(Borrowed, DeletesItsObjects)
     image.reset();
     timer.reset();
     EXPECT_EQ(names(), 0);
+}
+
+// A context made anew often gets the address of the one before it. Whether it does is up to the allocator, so this one
+// stays, without what Brume knows it by: with no object of that name, then with one of the host's.
+TEST(Borrowed, RemadeContextAtTheSameAddressIsAnother)
+{
+    for (bool taken : {false, true}) {
+        HostContext host;
+        Logged logged;
+        auto backend =
+            make_gl_backend(GlOptions{true, BRUME_GL_STATE_PRESERVE}, Log{Logged::add, &logged, BRUME_LOG_WARNING});
+        scaled(*backend, 2);
+        std::shared_ptr<Image> image;
+        std::unique_ptr<FrameTimer> timer;
+        backend->invoke([&] {
+            image = backend->create_image(4, 4, 4, BRUME_PIXEL_F32);
+            timer = backend->create_timer();
+            timer->begin();
+            timer->end();
+        });
+        const auto names = [] {
+            std::vector<std::array<bool, 5>> names;
+            for (GLuint name = 1; name < 200; ++name)
+                names.push_back({glIsTexture(name) != 0, glIsProgram(name) != 0, glIsSampler(name) != 0,
+                                 glIsQuery(name) != 0, glIsProgramPipeline(name) != 0});
+            return names;
+        };
+        int markers = 0;
+        for (GLuint name = 1; name < 200; ++name)
+            if (glIsProgramPipeline(name)) {
+                ++markers;
+                if (taken)
+                    glObjectLabel(GL_PROGRAM_PIPELINE, name, -1, "the host's");
+                else
+                    glDeleteProgramPipelines(1, &name);
+            }
+        EXPECT_EQ(markers, 1);
+        const auto before = names();
+        const Failure failure = failure_of([&] { scaled(*backend, 2); });
+        EXPECT_EQ(failure.status, BRUME_ERROR_GL);
+        EXPECT_NE(failure.message.find("has been destroyed"), std::string::npos) << failure.message;
+        backend.reset();
+        image.reset();
+        timer.reset();
+        EXPECT_EQ(names(), before);
+        ASSERT_EQ(logged.messages.size(), 1u);
+        EXPECT_NE(logged.messages[0].find("left behind"), std::string::npos) << logged.messages[0];
+        EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+    }
 }
 
 // What the host's textures may be.
@@ -214,13 +291,14 @@ TEST_F(Textures, Formats)
         EXPECT_EQ(refusal(make_texture(format, width, height), 4, false), "") << format;
     for (GLenum format : {GL_R8, GL_R32F, GL_RG16F, GL_RGBA8UI, GL_RGBA32I, GL_DEPTH_COMPONENT32F})
         EXPECT_NE(refusal(make_texture(format, width, height), 4, false), "") << format;
-    for (GLenum format : {GL_R32F, GL_R16F, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F,
-                          GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8})
+    for (GLenum format : {GL_R32F, GL_R16F, GL_R16, GL_RG32F, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24,
+                          GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8})
         EXPECT_EQ(refusal(make_texture(format, width, height), 1, false), "") << format;
     for (GLenum format : {GL_RGBA32F, GL_R8, GL_R32UI})
         EXPECT_NE(refusal(make_texture(format, width, height), 1, false), "") << format;
-    for (GLenum format : {GL_RGBA32F, GL_RGBA16F})
+    for (GLenum format : {GL_RGBA32F, GL_RGBA16F, GL_R11F_G11F_B10F, GL_RGB10_A2})
         EXPECT_EQ(refusal(make_texture(format, width, height), 4, true), "") << format;
+    EXPECT_NE(refusal(make_texture(GL_R11F_G11F_B10F, width, height), 1, true), "");
     for (GLenum format : {GL_RGB16F, GL_RGBA8, GL_R32F, GL_DEPTH_COMPONENT32F})
         EXPECT_NE(refusal(make_texture(format, width, height), 4, true), "") << format;
     EXPECT_EQ(refusal(make_texture(GL_R32F, width, height), 1, true), "");
@@ -295,6 +373,91 @@ TEST_F(Textures, DepthIsReadAsItIs)
             ASSERT_NEAR(got, 0.25f, 1e-7f);
     }
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST_F(Textures, DepthIsTheRedOfTwoOrNormalised)
+{
+    for (GLenum format : {GL_R16, GL_RG32F}) {
+        const GLuint depth = make_texture(format, width, height);
+        const float value[2] = {0.5f, 7};
+        glClearTexImage(depth, 0, GL_RG, GL_FLOAT, value);
+        std::vector<float> values(width * height, -1);
+        backend->invoke([&] {
+            const brume_image output = host_image(values.data(), width, height, 1);
+            auto from = backend->import(texture_image(depth, width, height, 1), 1);
+            EXPECT_EQ(from->channels, 1);
+            auto program = backend->compile("scale", scale_source, "");
+            auto to = backend->begin_output(output, 1, true);
+            Pass("scale", *program, width, height)
+                .bind("source", *from, BRUME_ACCESS_FETCH)
+                .bind("target", *to, BRUME_ACCESS_WRITE)
+                .set("factor", std::vector{1.0f})
+                .run(*backend);
+            backend->finish_output(output, *to);
+        });
+        for (float got : values)
+            ASSERT_NEAR(got, 0.5f, 1e-5f) << format;
+    }
+}
+
+// Of 5 exponent bits and 6, 6 and 5 mantissa bits.
+TEST_F(Textures, OutputsOfElevenBitsRoundToNearest)
+{
+    struct Case {
+        float written[4];
+        float stored[3];
+    };
+    const Case cases[] = {
+        {{1, 0.5f, 0.25f, 0.5f}, {1, 0.5f, 0.25f}},
+        {{-3, -0.0f, -1e-3f, 0}, {0, 0, 0}},
+        {{1 + 0x1p-7f, 1 + 0x3p-7f, 1 + 0x1p-6f, 1}, {1, 1 + 0x1p-5f, 1}},  // ties go to even
+        {{1 + 0x1.1p-7f, 1 + 0x0.fp-7f, 1 + 0x3p-6f, 1}, {1 + 0x1p-6f, 1, 1 + 0x1p-4f}},
+        {{1e9f, 65504, 1e9f, 1}, {65024, 65024, 64512}},
+        {{0x1.8p-20f, 0x1.01p-21f, 0x1.8p-19f, 1}, {0x1p-19f, 0x1p-20f, 0x1p-18f}},
+    };
+    for (const Case &one : cases) {
+        std::vector<float> values;
+        for (int i = 0; i < width * height; ++i)
+            values.insert(values.end(), one.written, one.written + 4);
+        const GLuint texture = make_texture(GL_R11F_G11F_B10F, width, height);
+        backend->invoke([&] {
+            EXPECT_EQ(backend->copy(host_image(values.data(), width, height, 4), texture_image(texture, width, height)),
+                      not_counted);
+        });
+        std::vector<float> stored(width * height * 4);
+        glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, GLsizei(stored.size() * 4), stored.data());
+        for (int c = 0; c < 3; ++c)
+            EXPECT_EQ(stored[size_t(4 * 9 + c)], one.stored[c]) << one.written[c] << ", component " << c;
+    }
+}
+
+TEST_F(Textures, OutputsOfTenBitsAreClampedAndRoundToNearest)
+{
+    const float written[][4] = {{0.5f, -1, 7, 0.4f}, {1 / 1023.0f, 1.4f / 1023, 1.6f / 1023, 0.6f}, {1, 0, 0.25f, 9}};
+    const uint32_t stored[][4] = {{512, 0, 1023, 1}, {1, 1, 2, 2}, {1023, 0, 256, 3}};
+    for (size_t i = 0; i < std::size(written); ++i) {
+        std::vector<float> values;
+        for (int k = 0; k < width * height; ++k)
+            values.insert(values.end(), written[i], written[i] + 4);
+        const GLuint texture = make_texture(GL_RGB10_A2, width, height);
+        backend->invoke([&] {
+            // By a pass, as effects write it.
+            auto program = backend->compile("scale", scale_source, "");
+            const brume_image output = texture_image(texture, width, height);
+            auto from = backend->import(host_image(values.data(), width, height, 4), 4);
+            auto to = backend->begin_output(output, 4, true);
+            Pass("scale", *program, width, height)
+                .bind("source", *from, BRUME_ACCESS_FETCH)
+                .bind("target", *to, BRUME_ACCESS_WRITE)
+                .set("factor", std::vector{1.0f})
+                .run(*backend);
+            backend->finish_output(output, *to);
+        });
+        std::vector<uint32_t> packed(width * height);
+        glGetTextureImage(texture, 0, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, GLsizei(packed.size() * 4), packed.data());
+        const uint32_t *want = stored[i];
+        EXPECT_EQ(packed[5], want[0] | want[1] << 10 | want[2] << 20 | want[3] << 30) << i;
+    }
 }
 
 TEST_F(Textures, CopiesBetweenTexturesAndMemory)

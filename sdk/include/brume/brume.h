@@ -147,6 +147,10 @@ typedef struct brume_context_info {
 BRUME_API void brume_context_info_init(brume_context_info *info, size_t size);
 BRUME_API brume_status brume_context_get_info(brume_context context, brume_context_info *info);
 
+/* Gives back the image memory that no plan holds; contexts keep some for the plans and frames to come, and free it as frames
+   pass without use. */
+BRUME_API brume_status brume_context_trim(brume_context context);
+
 /* Measures what the effects' passes take on this device, for at most 20 s; later plans predict and choose with it. Not while
    other threads use the context. */
 BRUME_API brume_status brume_context_calibrate(brume_context context);
@@ -406,7 +410,12 @@ BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info 
 /* ---- images and layers ------------------------------------------------------------------------------------------- */
 
 #define BRUME_IMAGE_HOST 0u       /* data, row_stride, pixel_stride */
-#define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only */
+#define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only. Each frame asks OpenGL what the texture is */
+#define BRUME_IMAGE_GL_TEXTURE_TRUSTED 2u
+/* The same, but OpenGL is asked nothing: the texture is as gl_texture below wants it, of width x height pixels, without
+   swizzle and with base level 0. For colour, channels is 3 or 4. An output is exactly RGBA32F or RGBA16F, or with channels 1
+   R32F or R16F, as `pixel` says. Where that is not so, the call fails with BRUME_ERROR_GL or
+   the picture is undefined. */
 
 #define BRUME_PIXEL_F32 0u
 #define BRUME_PIXEL_F16 1u
@@ -417,13 +426,15 @@ BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info 
 typedef struct brume_image {
   uint32_t struct_size;
   uint32_t kind;         /* BRUME_IMAGE_...; default HOST */
-  uint32_t pixel;        /* BRUME_PIXEL_...; host memory only (a texture knows its own); default F32 */
+  uint32_t pixel;        /* BRUME_PIXEL_...; not read for GL_TEXTURE, which knows its own; default F32 */
   uint32_t channels;     /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; depth: 1; default 4 */
   int32_t width;
   int32_t height;
   uint32_t origin;       /* BRUME_ORIGIN_...; default TOP_LEFT */
   uint32_t gl_texture;   /* a complete GL_TEXTURE_2D, level 0 is used. Colour: any float or normalised format with RGB;
-                            depth: R16F, R32F or a depth format; output: RGBA16F or RGBA32F */
+                            depth: R16, R16F, R32F, RG32F (red) or a depth format; output: RGBA32F, RGBA16F,
+                            R11F_G11F_B10F (no alpha, negative values become 0) or RGB10_A2 (clamped to [0, 1], alpha of 2
+                            bits); BLUR_RADIUS: RGBA32F, RGBA16F, R32F or R16F */
   void *data;            /* of the first row's first pixel; read only for inputs */
   int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
   int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */

@@ -150,6 +150,7 @@ public:
         return all;
     }
 
+    Result trim() { return check(brume_context_trim(get())); }
     Result calibrate() { return check(brume_context_calibrate(get())); }
     std::string calibration() const
     {

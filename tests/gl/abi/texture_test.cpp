@@ -7,6 +7,7 @@
 
 #include <brume/brume.hpp>
 
+#include "gl_calls.h"
 #include "host_context.h"
 #include "host_state.h"
 
@@ -202,6 +203,75 @@ TEST_F(HostTextures, PlanThatDoesNothingCopiesBits)
         const GLuint in = filled_texture(format, GL_RGBA, color), out = make_texture(format, width, height);
         plan.execute(texture_image(in), texture_image(filled_texture(GL_R32F, GL_RED, depth), 1), texture_image(out));
         EXPECT_EQ(read<float>(in), read<float>(out));
+    }
+}
+
+// Each question may wait for the driver's thread.
+TEST_F(HostTextures, FramesAskLittle)
+{
+    const GLuint in = filled_texture(GL_RGBA16F, GL_RGBA, color), out = make_texture(GL_RGBA16F, width, height);
+    const GLuint z = filled_texture(GL_R32F, GL_RED, depth);
+    struct Case {
+        uint32_t state;
+        bool trusted;
+        int most;
+    };
+    for (const Case &one : {Case{BRUME_GL_STATE_PRESERVE, false, 51}, Case{BRUME_GL_STATE_PRESERVE, true, 27},
+                            Case{BRUME_GL_STATE_OWNED, false, 29}, Case{BRUME_GL_STATE_OWNED, true, 5}}) {
+        Plan plan = make_plan(borrowed(one.state));
+        brume_image images[] = {texture_image(in), texture_image(z, 1), texture_image(out)};
+        for (brume_image &image : images) {
+            image.kind = one.trusted ? BRUME_IMAGE_GL_TEXTURE_TRUSTED : BRUME_IMAGE_GL_TEXTURE;
+            image.pixel = image.gl_texture == z ? BRUME_PIXEL_F32 : BRUME_PIXEL_F16;
+        }
+        plan.execute(images[0], images[1], images[2]);
+        const QueryCount count;
+        plan.execute(images[0], images[1], images[2]);
+        EXPECT_GT(QueryCount::total(), 0) << "nothing is counted";
+        EXPECT_LE(QueryCount::total(), one.most) << "state " << one.state << ", trusted " << one.trusted << "\n"
+                                                 << QueryCount::list();
+    }
+}
+
+TEST_F(HostTextures, TrustedTexturesGiveTheSameBits)
+{
+    Plan plan = make_plan(borrowed());
+    for (GLenum format : {GL_RGBA32F, GL_RGBA16F}) {
+        const GLuint in = filled_texture(format, GL_RGBA, color), out = make_texture(format, width, height);
+        const GLuint trusted_out = make_texture(format, width, height);
+        brume_image images[] = {texture_image(in), texture_image(filled_texture(GL_R32F, GL_RED, depth), 1),
+                                texture_image(trusted_out)};
+        plan.execute(images[0], images[1], texture_image(out));
+        for (brume_image &image : images) {
+            image.kind = BRUME_IMAGE_GL_TEXTURE_TRUSTED;
+            image.pixel = image.channels == 4 && format == GL_RGBA16F ? BRUME_PIXEL_F16 : BRUME_PIXEL_F32;
+        }
+        plan.execute(images[0], images[1], images[2]);
+        EXPECT_EQ(read<float>(trusted_out), read<float>(out));
+        plan.execute(images[0], images[1], images[0]);
+        EXPECT_EQ(read<float>(in), read<float>(out)) << "in place";
+    }
+}
+
+// The picture in the formats of many engines' frames.
+TEST_F(HostTextures, PackedOutputsAreTheFloatsRounded)
+{
+    Plan plan = make_plan(borrowed());
+    const brume_image in = texture_image(filled_texture(GL_RGBA32F, GL_RGBA, color));
+    const brume_image z = texture_image(filled_texture(GL_R32F, GL_RED, depth), 1);
+    const GLuint full = make_texture(GL_RGBA32F, width, height), small = make_texture(GL_R11F_G11F_B10F, width, height),
+                 display = make_texture(GL_RGB10_A2, width, height);
+    for (GLuint output : {full, small, display})
+        plan.execute(in, z, texture_image(output));
+    const std::vector<float> floats = read<float>(full), eleven = read<float>(small), ten = read<float>(display);
+    for (size_t i = 0; i < floats.size(); ++i) {
+        if (i % 4 != 3) {
+            ASSERT_NEAR(eleven[i], std::min(floats[i], 64512.0f), std::abs(floats[i]) / (i % 4 == 2 ? 64 : 128) + 0x1p-20f);
+            ASSERT_NEAR(ten[i], std::clamp(floats[i], 0.0f, 1.0f), 0.5f / 1023 + 1e-6f);
+        } else {
+            ASSERT_EQ(eleven[i], 1.0f);
+            ASSERT_NEAR(ten[i], floats[i], 0.5f / 3 + 1e-6f);
+        }
     }
 }
 

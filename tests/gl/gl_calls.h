@@ -1,0 +1,23 @@
+#pragma once
+#include <map>
+#include <string>
+
+namespace brume::test {
+
+// Counts what is asked of OpenGL while one of these lives: glGet..., glIs... and glGetError, by the name of the function.
+class QueryCount {
+public:
+    QueryCount();
+    ~QueryCount();
+    QueryCount(const QueryCount &) = delete;
+    QueryCount &operator=(const QueryCount &) = delete;
+
+    static int of(const std::string &function);
+    static int total();
+    static std::string list();
+
+private:
+    static std::map<std::string, int> calls();
+};
+
+}  // namespace brume::test
