@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "airlight_world.h"
-#include "spread.h"
+#include "calibrated/spread.h"
 
 namespace f32 = brume::maths_float;
 namespace f64 = brume::maths_double;
