@@ -96,7 +96,8 @@ double Planner::gather_operations() const
     // Mesa's software GL vectorises cells well and panels badly.
     const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 700,
                  of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 1900;
-    double operations = 100 + of_terms[finer] * lights * (of_light + of_term * scene_.medium.term_count);
+    const double of_orders = p.orders == Orders::all ? 2 : 1;
+    double operations = 100 + of_orders * of_terms[finer] * lights * (of_light + of_term * scene_.medium.term_count);
     if (scene_.gaussian_count > 0)
         operations +=
             of_gaussians[finer] * (2000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light);
@@ -129,7 +130,8 @@ brume_status Planner::plan_gather()
     return entry(
         true, "gather",
         std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
-            (scene_.environment_count ? " and the environment" : "") + " scattered once" +
+            (scene_.environment_count ? " and the environment" : "") +
+            (state.parameters.orders == Orders::all ? " scattered any number of times" : " scattered once") +
             (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
         pixels * (4 + 16), pixels * gather_operations());
 }

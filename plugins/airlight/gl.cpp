@@ -33,7 +33,9 @@ std::vector<brume_plugin_uniform> settings_uniforms(const AirlightSettings &s)
             integer("airlight.cells", s.cells),
             number("airlight.tolerance", s.tolerance),
             number("airlight.near_radii", s.near_radii),
-            number("airlight.culled", s.culled)};
+            number("airlight.culled", s.culled),
+            integer("airlight.orders", s.orders),
+            {"airlight.ground", BRUME_UNIFORM_FLOAT, 4, 1, 0, &s.ground}};
 }
 
 class GlPasses : public Passes {

@@ -2,6 +2,7 @@
 #include "common/pixels.hpp"
 #include "passes.h"
 #include "reference_ray.h"
+#include "settings.h"
 
 namespace airlight {
 
@@ -33,6 +34,7 @@ brume_status gather_reference(const brume_services &services, brume_host host, c
             if (brume_status s = services.pixels(host, image, pixels))
                 return s;
     const Camera camera = camera_of(scene);
+    const brume::maths_float::AirlightSettings settings = settings_of(state, scene);
     std::vector<Gaussian> gaussians;
     for (uint32_t i = 0; i < scene.gaussian_count; ++i)
         gaussians.push_back(gaussian_of(scene.gaussians[i]));
@@ -43,7 +45,7 @@ brume_status gather_reference(const brume_services &services, brume_host host, c
     const bool lit_around = to.environment && state.environment_order > 0;
     const Data environment = copy_of(services, host, lit_around ? state.environment : nullptr);
     const Data environment_table = copy_of(services, host, lit_around ? state.environment_table : nullptr);
-    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera};
+    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, vec4(settings.ground)};
     const ivec2 size(state.width, state.height);
     return brume_pixels::for_rows(services, host, "gather", radiance.height, 1, [&](int y) {
         for (int x = 0; x < radiance.width; ++x) {

@@ -25,6 +25,13 @@ PURE vec3 share_beside_lights(sampler2D lights, int count, IN(Medium) medium, IN
     return p.share;
 }
 
+// The same beside an effect that adds all that the lights scatter: of pixels that show such a light nothing is left, else it would
+// be counted twice.
+PURE vec3 share_beside_all_orders(sampler2D lights, int count, IN(Camera) camera, vec2 pixel, float raw_depth, IN(Pixel) p)
+{
+    return count > 0 && shows_light(lights, count, camera, pixel_ray(camera, pixel, raw_depth)) ? vec3(R(0.0)) : p.share;
+}
+
 // The share of a source's scattered light that is no other effect's: of listed lights the first scattering is.
 PURE vec3 shown_share(sampler2D lights, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, float raw_depth, float p)
 {
