@@ -262,6 +262,40 @@ TEST(LampOrders, RaysAgreeWithQuadrature)
     EXPECT_LT(errors.back(), 0.02);
 }
 
+// Many Gaussians are integrated as one density, in cells.
+TEST(LampOrders, CloudsAgreeWithQuadrature)
+{
+    std::vector<double> errors;
+    Dice dice(6);
+    for (int n = 0; n < 150; ++n) {
+        Case c;
+        c.medium = constant_medium(f64::vec3(dice.logarithmic(0.05, 1)), f64::vec3(0), dice.uniform(0, 0.9));
+        c.medium.constant = dice.chance(0.5) ? 0 : 0.1f;
+        c.lights = {airlight_cases::light_at({dice.uniform(-3, 3), dice.uniform(-3, 3), dice.uniform(-14, -2)})};
+        c.lights[0].radius = 0.1f;
+        if (dice.chance(0.5)) {
+            c.lights[0].type = f64::light_spot;
+            c.lights[0].direction = airlight_cases::rounded(dice.direction());
+            c.lights[0].cos_outer = 0.7f;
+            c.lights[0].cos_inner = 0.8f;
+        }
+        c.distance = 30;
+        for (int i = 0; i < 12; ++i)
+            c.gaussians.push_back({airlight_cases::rounded(f64::vec3(dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(-12, -2))),
+                                   dice.logarithmic(0.4, 1.5), dice.logarithmic(0.1, 2), f64::vec3(1)});
+        World world(c);
+        world.settings.orders = f32::orders_all;
+        const double got = world.airlight(f32::airlight_nodes).radiance.y, exact = world.reference().radiance.y;
+        if (exact > 1e-12)
+            errors.push_back(std::abs(got / exact - 1));
+    }
+    std::sort(errors.begin(), errors.end());
+    const double median = errors[errors.size() / 2], p95 = errors[errors.size() * 95 / 100];
+    printf("all orders in clouds along %zu rays: median %.2g, p95 %.2g\n", errors.size(), median, p95);
+    EXPECT_LT(median, 0.005);
+    EXPECT_LT(p95, 0.03);
+}
+
 // Its glow is all there beside the picture, so the filter must not make it again.
 TEST(LampOrders, PixelsThatShowALampAreLeftOutOfTheFilter)
 {
