@@ -1,6 +1,6 @@
-// lamp_calibration [--quick]: shaders/lib/airlight_orders.glsl against Monte Carlo: how far off are the fluence and the mean cosine
-// of a lamp's scattered light, the source that it makes toward a camera, and what a black plane leaves of it. Seeded; the same on
-// every run.
+// lamp_calibration [--quick]: shaders/lib/airlight_orders.glsl against Monte Carlo: how far off are the fluence and the mean
+// cosine of a lamp's scattered light, the source that it makes toward a camera, and what a black plane leaves of it. Seeded;
+// the same on every run.
 #include <cstdio>
 #include <cstring>
 
@@ -40,7 +40,8 @@ double mean_source(double g, double cosine, int bin)
 
 void endless(int photons)
 {
-    printf("Endless medium, x = s' r from .02 to 6. Relative errors of r^2 fluence; of the source by angle, weighted by solid angle,\n"
+    printf("Endless medium, x = s' r from .02 to 6. Relative errors of r^2 fluence; of the source by angle, weighted by "
+           "solid angle,\n"
            "relative to its mean; absolute of the mean cosine. Monte Carlo: its own deviation of the fluence.\n"
            "    g albedo  fluence rms  worst  cosine rms  source rms  Monte Carlo\n");
     for (double g : {0.0, 0.3, 0.5, 0.7, 0.85, 0.95}) {
@@ -57,20 +58,22 @@ void endless(int photons)
                 noise.add(s.deviation);
                 double square = 0;
                 for (int k = 0; k < bins; ++k) {
-                    const double solid = 0.5 * (std::cos(angles[size_t(k)] * pi / 180) - std::cos(angles[size_t(k) + 1] * pi / 180));
+                    const double solid =
+                        0.5 * (std::cos(angles[size_t(k)] * pi / 180) - std::cos(angles[size_t(k) + 1] * pi / 180));
                     square += solid * std::pow(4 * pi * (mean_source(g, model.cosine, k) - s.source[k]), 2);
                 }
                 source.add(std::sqrt(square));
             }
-            printf("%5.2f %6.2f %12.3f %6.3f %11.3f %11.3f %12.3f\n", g, m.albedo, fluence.rms(), fluence.worst(), cosine.rms(),
-                   source.rms(), noise.rms());
+            printf("%5.2f %6.2f %12.3f %6.3f %11.3f %11.3f %12.3f\n", g, m.albedo, fluence.rms(), fluence.worst(),
+                   cosine.rms(), source.rms(), noise.rms());
         }
     }
 }
 
 void over_ground(int photons)
 {
-    printf("\nOver a black plane, the lamp at s' h. Relative errors of the fluence of what has not touched the plane, where the Monte Carlo is\n"
+    printf("\nOver a black plane, the lamp at s' h. Relative errors of the fluence of what has not touched the plane, where "
+           "the Monte Carlo is\n"
            "better than 10 %%, with the plane and as if there were none.\n"
            "    g    s'h  points     rms   worst  without: rms\n");
     for (double g : {0.0, 0.5, 0.85})

@@ -58,12 +58,12 @@ constexpr std::array<double, 11> angles{0, 8, 16, 26, 38, 52, 68, 86, 108, 135, 
 constexpr int bins = int(angles.size()) - 1;
 
 struct Shell {
-    double radius = 0;              // its mean [1 / s']
-    double fluence = 0;             // of what has scattered at least once, for an intensity of 1
-    double once = 0;                // of what has scattered exactly once
-    double moments[3] = {};         // mean P_1, P_2, P_3 of the cosine between its way and that away from the lamp
-    double source[bins] = {};       // density per steradian of the way after one more scattering, integral 1
-    double deviation = 0;           // of the fluence, relative
+    double radius = 0;         // its mean [1 / s']
+    double fluence = 0;        // of what has scattered at least once, for an intensity of 1
+    double once = 0;           // of what has scattered exactly once
+    double moments[3] = {};    // mean P_1, P_2, P_3 of the cosine between its way and that away from the lamp
+    double source[bins] = {};  // density per steradian of the way after one more scattering, integral 1
+    double deviation = 0;      // of the fluence, relative
 };
 
 struct Endless {
@@ -179,15 +179,17 @@ inline std::vector<Endless> trace_endless(double g, const std::vector<double> &a
             const double unit = 4 * pi / (photons * 4 / 3.0 * pi * (std::pow(v, 3) - std::pow(u, 3))) / scale[m];
             const double own = unit * t.sum;
             const double x = s.radius;
-            const double beyond = kappa < 1e-6 ? 3 * (1 - a) / edge
-                                               : 3 * (1 - a) * std::sinh(kappa * x) / x * std::exp(-kappa * edge) / std::sinh(kappa * edge);
+            const double beyond =
+                kappa < 1e-6 ? 3 * (1 - a) / edge
+                             : 3 * (1 - a) * std::sinh(kappa * x) / x * std::exp(-kappa * edge) / std::sinh(kappa * edge);
             s.fluence = own + beyond;
             s.once = unit * t.once;
             s.deviation = std::sqrt(std::max(t.square / (t.sum * t.sum) - 1.0 / photons, 0.0));
             for (int l = 0; l < 3; ++l)
                 s.moments[l] = unit * t.moments[l] / s.fluence;
             for (int k = 0; k < bins; ++k) {
-                const double solid = 2 * pi * (std::cos(angles[size_t(k)] * pi / 180) - std::cos(angles[size_t(k) + 1] * pi / 180));
+                const double solid =
+                    2 * pi * (std::cos(angles[size_t(k)] * pi / 180) - std::cos(angles[size_t(k) + 1] * pi / 180));
                 s.source[k] = (unit * t.source[k] / solid + beyond / (4 * pi)) / s.fluence;
             }
             e.shells.push_back(s);

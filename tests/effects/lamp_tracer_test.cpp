@@ -11,8 +11,8 @@ using lamp_tracer::Shell;
 
 namespace {
 
-// Fluence of what has scattered once at x in an endless medium, I = 1, lengths in 1 / s': all pairs of ways, by the angle u by which light
-// is turned and how it is shared between the lamp's end and the point's.
+// Fluence of what has scattered once at x in an endless medium, I = 1, lengths in 1 / s': all pairs of ways, by the angle u
+// by which light is turned and how it is shared between the lamp's end and the point's.
 double scattered_once(double g, double albedo, double x)
 {
     const double absorption = 1 / albedo - 1, unit = 1 / (absorption + 1 - g), depth = x * unit / albedo;
@@ -65,9 +65,12 @@ TEST(LampTracer, TheModelIsWithinItsNoise)
             for (const Shell &s : m.shells) {
                 const double r = s.radius / (1 / m.albedo - g), x = s.radius;
                 const f64::Rescattered model = f64::rescattered(r, (1 / m.albedo - 1) * r, g);
-                EXPECT_NEAR(model.fluence / (x * x * s.fluence), 1, 0.03 + 4 * s.deviation) << "g " << g << " albedo " << m.albedo << " at " << x;
-                EXPECT_NEAR(model.cosine, s.moments[0], 0.02 + 4 * s.deviation) << "g " << g << " albedo " << m.albedo << " at " << x;
+                EXPECT_NEAR(model.fluence / (x * x * s.fluence), 1, 0.03 + 4 * s.deviation)
+                    << "g " << g << " albedo " << m.albedo << " at " << x;
+                EXPECT_NEAR(model.cosine, s.moments[0], 0.02 + 4 * s.deviation)
+                    << "g " << g << " albedo " << m.albedo << " at " << x;
                 const double k = std::sqrt(model.cosine);
-                EXPECT_NEAR(k * k * k, s.moments[1], 0.08 + 4 * s.deviation) << "g " << g << " albedo " << m.albedo << " at " << x;
+                EXPECT_NEAR(k * k * k, s.moments[1], 0.08 + 4 * s.deviation)
+                    << "g " << g << " albedo " << m.albedo << " at " << x;
             }
 }

@@ -91,7 +91,8 @@ TEST(LampOrders, FarAwayIsDiffusion)
     }
 }
 
-// A thin medium's light has scattered once: in the plane of lamp and point by all angles alike (physics of equiangular rays).
+// A thin medium's light has scattered once: in the plane of lamp and point by all angles alike (physics of equiangular
+// rays).
 TEST(LampOrders, ThinMediaApproachOneScattering)
 {
     for (int i = 0; i < 6; ++i) {
@@ -135,7 +136,8 @@ TEST(LampOrders, FloatIsDouble)
             for (double ratio : {0.0, 0.01, 0.3, 3.0}) {
                 const f32::Rescattered narrow = f32::rescattered(float(depth), float(ratio * depth), float(g));
                 const f64::Rescattered wide = f64::rescattered(float(depth), float(ratio * depth), float(g));
-                const double rest = std::exp(-(1 + ratio) * depth), scale = std::min(depth, 1.0) * rest + wide.fluence + 1e-20;
+                const double rest = std::exp(-(1 + ratio) * depth),
+                             scale = std::min(depth, 1.0) * rest + wide.fluence + 1e-20;
                 worst = std::max(worst, std::abs(narrow.fluence - wide.fluence) / scale);
                 worst_cosine = std::max(worst_cosine, std::abs(narrow.cosine - wide.cosine) * wide.fluence / scale);
             }
@@ -147,8 +149,10 @@ TEST(LampOrders, ContinuousInDepthAlbedoAndAsymmetry)
 {
     Dice dice(3);
     for (int n = 0; n < 20000; ++n) {
-        const double s = dice.logarithmic(1e-4, 100), d = dice.chance(0.2) ? 0 : dice.logarithmic(1e-4, 100), g = dice.uniform(-0.98, 0.98);
-        const f64::Rescattered a = f64::rescattered(s, d, g), b = f64::rescattered(s * (1 + 1e-6), d * (1 + 1e-6) + 1e-13, g + 1e-8);
+        const double s = dice.logarithmic(1e-4, 100), d = dice.chance(0.2) ? 0 : dice.logarithmic(1e-4, 100),
+                     g = dice.uniform(-0.98, 0.98);
+        const f64::Rescattered a = f64::rescattered(s, d, g),
+                               b = f64::rescattered(s * (1 + 1e-6), d * (1 + 1e-6) + 1e-13, g + 1e-8);
         EXPECT_NEAR(a.fluence, b.fluence, 2e-4 * a.fluence + 1e-7) << s << " " << d << " " << g;
         EXPECT_NEAR(a.cosine * a.fluence, b.cosine * b.fluence, 2e-4 * a.fluence + 1e-7) << s << " " << d << " " << g;
     }
@@ -165,7 +169,8 @@ TEST(LampOrders, LampAndPointMayChangePlaces)
 {
     Dice dice(4);
     for (int n = 0; n < 500; ++n) {
-        f64::Medium m = constant_medium(f64::vec3(dice.logarithmic(0.01, 1)), f64::vec3(dice.logarithmic(0.001, 1)), dice.uniform(0, 0.9));
+        f64::Medium m = constant_medium(f64::vec3(dice.logarithmic(0.01, 1)), f64::vec3(dice.logarithmic(0.001, 1)),
+                                        dice.uniform(0, 0.9));
         m.term_count = 1;
         m.terms[0] = f64::vec4(airlight_cases::rounded(dice.logarithmic(1e-3, 0.3) * dice.direction()), dice.uniform(-2, 1));
         f64::Light lamp = airlight_cases::light_at(dice.uniform(1, 10) * dice.direction());
@@ -177,8 +182,10 @@ TEST(LampOrders, LampAndPointMayChangePlaces)
         const f64::Rescattered a = f64::rescattered(m.scattering.x * there, m.absorption.x * there, m.asymmetry),
                                b = f64::rescattered(m.scattering.x * back, m.absorption.x * back, m.asymmetry);
         EXPECT_NEAR(a.fluence, b.fluence, 1e-6 * a.fluence);
-        const double up = dice.uniform(0, 5), down = dice.uniform(0, 5), distance = std::abs(up - down) + dice.uniform(0.1, 5);
-        EXPECT_NEAR(f64::left_by_ground(a, there, distance, up, down), f64::left_by_ground(a, there, distance, down, up), 1e-12);
+        const double up = dice.uniform(0, 5), down = dice.uniform(0, 5),
+                     distance = std::abs(up - down) + dice.uniform(0.1, 5);
+        EXPECT_NEAR(f64::left_by_ground(a, there, distance, up, down), f64::left_by_ground(a, there, distance, down, up),
+                    1e-12);
     }
 }
 
@@ -219,7 +226,8 @@ TEST(LampOrders, SpotsAreAsBrightAsTheyEmit)
             spot.cos_outer = outer;
             spot.cos_inner = 0.5 + 0.5 * outer;
             const double all = over_sphere([&](double c) { return f64::spot_spread(spot, cosine, c); });
-            EXPECT_NEAR(all, over_sphere([&](double c) { return f64::spot_factor(spot, c); }), 1e-4) << outer << " " << cosine;
+            EXPECT_NEAR(all, over_sphere([&](double c) { return f64::spot_factor(spot, c); }), 1e-4)
+                << outer << " " << cosine;
         }
 }
 
@@ -231,18 +239,21 @@ TEST(LampOrders, RaysAgreeWithQuadrature)
     for (int n = 0; n < 600; ++n) {
         Case c;
         const double g = dice.chance(0.3) ? 0 : dice.uniform(0, 0.95), s = dice.logarithmic(0.005, 1);
-        c.medium = constant_medium(f64::vec3(s, 1.2 * s, 1.5 * s), f64::vec3(dice.chance(0.5) ? 0 : s * dice.uniform(0, 0.3)), g);
+        c.medium =
+            constant_medium(f64::vec3(s, 1.2 * s, 1.5 * s), f64::vec3(dice.chance(0.5) ? 0 : s * dice.uniform(0, 0.3)), g);
         if (dice.chance(0.3)) {
             c.medium.constant = 0;
             c.medium.term_count = 1;
             c.medium.terms[0] = f64::vec4(airlight_cases::rounded(dice.logarithmic(0.01, 0.5) * dice.direction()), 0);
         }
-        c.lights = {airlight_cases::light_at(dice.logarithmic(0.5, 50) * dice.near_direction({0, 0, -1}, dice.logarithmic(0.01, 3)))};
+        c.lights = {airlight_cases::light_at(dice.logarithmic(0.5, 50) *
+                                             dice.near_direction({0, 0, -1}, dice.logarithmic(0.01, 3)))};
         c.lights[0].radius = 0.1f;
         c.distance = dice.chance(0.2) ? 1e30 : dice.logarithmic(1, 100);
         if (dice.chance(0.3))
-            c.gaussians.push_back({airlight_cases::rounded(f64::vec3(dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(-20, 0))),
-                                   dice.logarithmic(0.2, 2), dice.logarithmic(0.1, 10), f64::vec3(1)});
+            c.gaussians.push_back(
+                {airlight_cases::rounded(f64::vec3(dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(-20, 0))),
+                 dice.logarithmic(0.2, 2), dice.logarithmic(0.1, 10), f64::vec3(1)});
         World world(c);
         auto both = [&](int orders) {
             world.settings.orders = orders;
@@ -256,7 +267,8 @@ TEST(LampOrders, RaysAgreeWithQuadrature)
     }
     std::sort(errors.begin(), errors.end());
     const double median = errors[errors.size() / 2], p95 = errors[errors.size() * 95 / 100];
-    printf("orders of two and more along %zu rays, of all: median %.2g, p95 %.2g, worst %.2g\n", errors.size(), median, p95, errors.back());
+    printf("orders of two and more along %zu rays, of all: median %.2g, p95 %.2g, worst %.2g\n", errors.size(), median, p95,
+           errors.back());
     EXPECT_LT(median, 0.0001);
     EXPECT_LT(p95, 0.002);
     EXPECT_LT(errors.back(), 0.02);
@@ -281,8 +293,9 @@ TEST(LampOrders, CloudsAgreeWithQuadrature)
         }
         c.distance = 30;
         for (int i = 0; i < 12; ++i)
-            c.gaussians.push_back({airlight_cases::rounded(f64::vec3(dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(-12, -2))),
-                                   dice.logarithmic(0.4, 1.5), dice.logarithmic(0.1, 2), f64::vec3(1)});
+            c.gaussians.push_back(
+                {airlight_cases::rounded(f64::vec3(dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(-12, -2))),
+                 dice.logarithmic(0.4, 1.5), dice.logarithmic(0.1, 2), f64::vec3(1)});
         World world(c);
         world.settings.orders = f32::orders_all;
         const double got = world.airlight(f32::airlight_nodes).radiance.y, exact = world.reference().radiance.y;

@@ -200,7 +200,7 @@ TEST_F(Truth, LampsThatLightWhatIsSeen)
     const struct {
         const char *medium;
         double bound, grounded_bound;
-    } cases[] = {{"m1", 0.02, 0.02}, {"m2", 0.02, 0.02}};
+    } cases[] = {{"m1", 0.015, 0.012}, {"m2", 0.012, 0.008}};
     for (auto &[medium, bound, grounded_bound] : cases) {
         const std::string file = folder / (std::string("yard_") + medium), clear = folder / "yard_clear.exr";
         const Json description = Json::parse(std::ifstream(file + ".json"));
