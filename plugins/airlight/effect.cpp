@@ -96,7 +96,7 @@ double Planner::gather_operations() const
     // Mesa's software GL vectorises cells well and panels badly.
     const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 700,
                  of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 1900;
-    const double of_orders = p.orders == Orders::all ? 2 : 1;
+    const double of_orders = p.orders == Orders::all ? 3 : 1;
     double operations = 100 + of_orders * of_terms[finer] * lights * (of_light + of_term * scene_.medium.term_count);
     if (scene_.gaussian_count > 0)
         operations +=
