@@ -3,6 +3,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "encounters.h"
 #include "layers.h"
@@ -103,7 +104,8 @@ double Planner::gather_operations() const
     // Mesa's software GL vectorises cells well and panels badly.
     const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 700,
                  of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 1900;
-    double operations = 100 + of_terms[finer] * lights * (of_light + of_term * scene_.medium->term_count);
+    const double of_orders = p.orders == Orders::all ? 3 : 1;
+    double operations = 100 + of_orders * of_terms[finer] * lights * (of_light + of_term * scene_.medium->term_count);
     if (scene_.gaussian_count > 0)
         operations +=
             of_gaussians[finer] * (2000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light);
@@ -137,7 +139,8 @@ brume_status Planner::plan_gather()
     return entry(
         true, "gather",
         std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
-            (scene_.environment_count ? " and the environment" : "") + " scattered once" +
+            (scene_.environment_count ? " and the environment" : "") +
+            (state.parameters.orders == Orders::all ? " scattered any number of times" : " scattered once") +
             (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
         pixels * (4 + 16), pixels * gather_operations());
 }
@@ -198,6 +201,14 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
     return run_passes(*services, host, *frame, state);
 }
 
+// The published tiers know single scattering only.
+uint32_t makes_with(const double *values, uint32_t index)
+{
+    const Parameters p = read_parameters(values);
+    return made[index] != std::string_view("all_scattering") ||
+           (p.orders == Orders::all && (p.tier == Tier::nodes || p.tier == Tier::reference));
+}
+
 }  // namespace
 }  // namespace airlight
 
@@ -223,6 +234,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
                                      plan,
                                      execute,
                                      [](void *state) { delete static_cast<State *>(state); },
+                                     makes_with,
                                      offer};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

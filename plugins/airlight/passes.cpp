@@ -61,6 +61,8 @@ constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, airli
                                               BRUME_CONSTANT_OF(Constants, airlight, tolerance),
                                               BRUME_CONSTANT_OF(Constants, airlight, near_radii),
                                               BRUME_CONSTANT_OF(Constants, airlight, culled),
+                                              BRUME_CONSTANT_OF(Constants, airlight, orders),
+                                              BRUME_CONSTANT_OF(Constants, airlight, ground),
                                               BRUME_CONSTANT(Constants, size),
                                               BRUME_CONSTANT(Constants, light_range),
                                               BRUME_CONSTANT(Constants, reduction)};

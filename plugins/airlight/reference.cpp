@@ -4,6 +4,7 @@
 #include "common/pixels.hpp"
 #include "passes.h"
 #include "reference_ray.h"
+#include "settings.h"
 
 namespace airlight {
 
@@ -39,7 +40,8 @@ brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first,
     const Data environment = copy_of(slots[gather::environment]);
     const Data environment_table = copy_of(slots[gather::environment_table]);
     const int environment_order = constants.airlight.environment_order;
-    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera};
+    const brume::maths_float::AirlightSettings &settings = constants.airlight;
+    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, vec4(settings.ground)};
     return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.size);
         const Ray ray = pixel_ray(camera, vec2(pixel) + 0.5, *at(depth, pixel.x, pixel.y));

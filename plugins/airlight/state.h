@@ -64,6 +64,7 @@ brume_status plan_tables(const brume_services &services, brume_host host, const 
 brume_status refresh(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state);
 
 // As brume_effect.
-uint32_t offer(const brume_plugin_request *request, uint32_t index, double *parameters, double *error);
+uint32_t offer(const brume_services *services, brume_host host, const brume_plugin_request *request, uint32_t index,
+               double *parameters, double *error);
 
 }  // namespace airlight
