@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -123,19 +124,22 @@ brume_image read_image(const brume_image *given, const char *name)
     struct Step {
         int64_t bytes, count;
         const char *name;
+        int order;
     };
     const int64_t pixel_step = image.pixel_stride ? std::abs(image.pixel_stride) : pixel;
-    Step steps[] = {{image.plane_stride ? std::abs(image.plane_stride) : sample, image.channels, "plane_stride"},
-                    {pixel_step, width, "pixel_stride"},
-                    {image.row_stride ? std::abs(image.row_stride) : pixel_step * width, height, "row_stride"}};
-    std::stable_sort(std::begin(steps), std::end(steps), [](const Step &a, const Step &b) { return a.bytes < b.bytes; });
+    Step steps[] = {{image.plane_stride ? std::abs(image.plane_stride) : sample, image.channels, "plane_stride", 0},
+                    {pixel_step, width, "pixel_stride", 1},
+                    {image.row_stride ? std::abs(image.row_stride) : pixel_step * width, height, "row_stride", 2}};
+    std::sort(std::begin(steps), std::end(steps),
+              [](const Step &x, const Step &y) { return std::tie(x.bytes, x.order) < std::tie(y.bytes, y.order); });
     int64_t extent = sample;
     for (const Step &step : steps) {
         if (step.count == 1)
             continue;
-        check(step.bytes >= extent, image.plane_stride ? step.name : "row_stride",
-              fmt::format("{} bytes between what takes {}", step.bytes, extent),
-              "channels, pixels and rows that do not overlap");
+        if (step.bytes < extent)
+            check(false, image.plane_stride ? step.name : "row_stride",
+                  fmt::format("{} bytes between what takes {}", step.bytes, extent),
+                  "channels, pixels and rows that do not overlap");
         extent += step.bytes * (step.count - 1);
     }
     return image;

@@ -1,21 +1,22 @@
 #include "gl/gl_thread.h"
 
+#include <utility>
+#include <vector>
+
 #include "core/log.h"
 #include "gl/egl_context.h"
 
 namespace brume::gl {
 
-GlThread::GlThread()
+GlThread::GlThread() : thread_(&GlThread::serve, this)
 {
-    std::promise<void> started;
-    std::future<void> ready = started.get_future();
-    thread_ = std::thread(&GlThread::serve, this, std::move(started));
-    try {
-        ready.get();
-    } catch (...) {
-        thread_.join();
-        throw;
-    }
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ready_; });
+    if (!failure_)
+        return;
+    lock.unlock();
+    thread_.join();
+    std::rethrow_exception(failure_);
 }
 
 GlThread::~GlThread()
@@ -24,7 +25,7 @@ GlThread::~GlThread()
         std::lock_guard lock(mutex_);
         ending_ = true;
     }
-    wake_.notify_one();
+    changed_.notify_all();
     thread_.join();
 }
 
@@ -33,7 +34,7 @@ void GlThread::invoke(const std::function<void()> &work)
     if (std::this_thread::get_id() == thread_.get_id())
         return work();
     std::vector<DeferredLog::Message> messages;
-    Task task([&] {
+    const std::function<void()> logged = [&] {
         DeferredLog log;
         try {
             work();
@@ -42,35 +43,51 @@ void GlThread::invoke(const std::function<void()> &work)
             throw;
         }
         messages = log.take();
-    });
-    std::future<void> done = task.get_future();
-    {
-        std::lock_guard lock(mutex_);
-        tasks_.push(std::move(task));
-    }
-    wake_.notify_one();
-    done.wait();
+    };
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !work_; });
+    work_ = &logged;
+    ready_ = false;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return ready_; });
+    const std::exception_ptr failure = std::exchange(failure_, nullptr);
+    work_ = nullptr;
+    lock.unlock();
+    changed_.notify_all();
     for (const DeferredLog::Message &message : messages)
         message.log(message.level, message.text);
-    done.get();
+    if (failure)
+        std::rethrow_exception(failure);
 }
 
-void GlThread::serve(std::promise<void> started)
-try {
-    EglContext context;
-    started.set_value();
-    for (;;) {
-        std::unique_lock lock(mutex_);
-        wake_.wait(lock, [&] { return ending_ || !tasks_.empty(); });
-        if (tasks_.empty())
-            return;
-        Task task = std::move(tasks_.front());
-        tasks_.pop();
-        lock.unlock();
-        task();
+void GlThread::serve()
+{
+    std::unique_lock lock(mutex_);
+    try {
+        EglContext context;
+        ready_ = true;
+        changed_.notify_all();
+        for (;;) {
+            changed_.wait(lock, [&] { return ending_ || (work_ && !ready_); });
+            if (!work_ || ready_)
+                return;
+            lock.unlock();
+            std::exception_ptr failure;
+            try {
+                (*work_)();
+            } catch (...) {
+                failure = std::current_exception();
+            }
+            lock.lock();
+            failure_ = failure;
+            ready_ = true;
+            changed_.notify_all();
+        }
+    } catch (...) {
+        failure_ = std::current_exception();  // of making the context: what callers run keeps its own
+        ready_ = true;
+        changed_.notify_all();
     }
-} catch (...) {
-    started.set_exception(std::current_exception());  // only making the context throws: tasks keep theirs
 }
 
 }  // namespace brume::gl

@@ -1,9 +1,8 @@
 #pragma once
 #include <condition_variable>
+#include <exception>
 #include <functional>
-#include <future>
 #include <mutex>
-#include <queue>
 #include <thread>
 
 namespace brume::gl {
@@ -20,13 +19,14 @@ public:
     void invoke(const std::function<void()> &work);
 
 private:
-    using Task = std::packaged_task<void()>;
-    void serve(std::promise<void> started);
+    void serve();
 
     std::mutex mutex_;
-    std::condition_variable wake_;
-    std::queue<Task> tasks_;
+    std::condition_variable changed_;
+    const std::function<void()> *work_ = nullptr;  // one caller's at a time
+    bool ready_ = false;                           // the context is made, or failed to be; then: `work_` is done
     bool ending_ = false;
+    std::exception_ptr failure_;
     std::thread thread_;
 };
 
