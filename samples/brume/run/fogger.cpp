@@ -65,18 +65,20 @@ void FogOptions::add_to(CLI::App &command)
         ->check(CLI::Range(1e-6, 1e9))
         ->excludes(chosen)
         ->excludes(error);
-    command.add_option("--layers", layers, "Also write these as brume.NAME: " + known_layers())
+    command.add_option("--layers", layers, "Also write these as brume.NAME: layers that an effect fills, see `brume effects`")
         ->delimiter(',')
         ->type_name("NAME,...")
         ->allow_extra_args(false);
 }
 
-Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_layers(options.layers))
+Fogger::Fogger(const FogOptions &options) : options_(options)
 {
     const SceneText text = read_scene(options.scene, options.set);
     options.picture.depth_kind();
     options.picture.sky();
     context_ = create_context(options.backend);
+    outputs_ = parse_layers(context_.get(), options.layers);
+    output_layers_ = format_layers(outputs_);
     load_calibration(context_.get());
     scene_ = make_scene(context_.get(), text);
     const brume_scene scene = scene_.get();
@@ -87,9 +89,9 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
     check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
     for (const LayerOutput &output : outputs_)
-        if (output.flag == BRUME_OUTPUT_LIGHT_AIRLIGHT && output.light >= scene_info_.light_count)
-            throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected light0 to the last of them",
-                                           output.name, options.scene, scene_info_.light_count));
+        if (output.of_light && output.light >= scene_info_.light_count)
+            throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected the number of one, from 0", output.name,
+                                           options.scene, scene_info_.light_count));
 }
 
 void Fogger::ask_for_quality()
@@ -118,7 +120,9 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     const PartInfo &part = depth_file.parts()[depth.part];
     Shot shot = shot_of(file, color);
     shot.format = format_of(part.data_window, depth_file.header(depth.part).displayWindow(), options_.picture);
-    shot.format.outputs = BRUME_OUTPUT_TRANSMITTANCE;
+    brume_layer wanted = layer_named("transmittance", nullptr);
+    shot.format.outputs = &wanted;
+    shot.format.output_count = 1;
     brume_quality draft = BRUME_QUALITY_INIT;
     draft.preset = BRUME_PRESET_DRAFT;
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &draft), "quality");
@@ -136,15 +140,13 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     const int width = part.width(), height = part.height();
     const brume_image c = host_image(color_rgb.data(), width, height, 3), d = host_image(distances.data(), width, height, 1),
                       t = host_image(transmittance.data(), width, height, 3);
-    brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
-    wanted.output = BRUME_OUTPUT_TRANSMITTANCE;
     wanted.image = &t;
     brume_frame call = BRUME_FRAME_INIT;
     call.color = &c;
     call.depth = &d;
     call.output = &c;
-    call.extra = &wanted;
-    call.extra_count = 1;
+    call.outputs = &wanted;
+    call.output_count = 1;
     call.camera = &shot.camera;
     check_request(context_.get(), brume_plan_execute(made, &call), file.path().string());
     double sum = 0;
@@ -161,8 +163,8 @@ Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
 {
     Shot shot =
         tool::shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
-    for (const LayerOutput &output : outputs_)
-        shot.format.outputs |= output.flag;
+    shot.format.outputs = output_layers_.data();
+    shot.format.output_count = std::uint32_t(output_layers_.size());
     return shot;
 }
 
@@ -202,7 +204,7 @@ try {
     const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
 
     std::vector<brume_image> images;
-    std::vector<brume_extra_output> extra;
+    std::vector<brume_layer> wanted;
     images.reserve(outputs_.size());
     layers.clear();
     layers.reserve(outputs_.size());
@@ -210,19 +212,16 @@ try {
         layers.push_back({output.name, output.channels, output.type, {}});
         layers.back().pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * std::size_t(output.channels));
         images.push_back(host_image(layers.back().pixels.data(), frame.width, frame.height, output.channels));
-        brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
-        wanted.output = output.flag;
-        wanted.image = &images.back();
-        wanted.light = output.light;
-        extra.push_back(wanted);
+        wanted.push_back(layer_named(output.layer.c_str(), &images.back()));
+        wanted.back().light = output.light;
     }
 
     brume_frame call = BRUME_FRAME_INIT;
     call.color = &color;
     call.depth = &depth;
     call.output = &color;
-    call.extra = extra.empty() ? nullptr : extra.data();
-    call.extra_count = std::uint32_t(extra.size());
+    call.outputs = wanted.data();
+    call.output_count = std::uint32_t(wanted.size());
     call.camera = &shot.camera;
     call.frame = number;
     check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());

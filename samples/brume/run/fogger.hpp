@@ -69,6 +69,7 @@ private:
     std::uint32_t scene_camera_ = 0;
     brume_scene_info scene_info_ = BRUME_SCENE_INFO_INIT;
     std::vector<LayerOutput> outputs_;
+    std::vector<brume_layer> output_layers_;  ///< of `outputs_`, as formats have them
     std::map<std::vector<double>, PlanHandle> plans_;
 };
 
