@@ -203,7 +203,9 @@ public:
             light_directions_.push_back(glm::normalize(somewhere(1)));
             lights_.push_back(l);
         }
-        scene_.medium.scattering[0] = scene_.medium.scattering[1] = scene_.medium.scattering[2] = 1;
+        medium_.scattering[0] = medium_.scattering[1] = medium_.scattering[2] = 1;
+        scene_.medium = &medium_;
+        scene_.camera = &camera_;
         move({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     }
     World(const World &) = delete;
@@ -215,7 +217,7 @@ public:
     {
         const glm::dvec3 axes[3] = {glm::normalize(right), glm::normalize(glm::cross(glm::cross(right, up), right)),
                                     glm::normalize(glm::cross(right, up))};
-        float(*const to[3])[3] = {&scene_.camera.right, &scene_.camera.up, &scene_.camera.back};
+        float(*const to[3])[3] = {&camera_.right, &camera_.up, &camera_.back};
         for (int a = 0; a < 3; ++a)
             for (int i = 0; i < 3; ++i)
                 (*to[a])[i] = float(axes[a][i]);
@@ -246,6 +248,8 @@ private:
     std::vector<glm::dvec3> centers_, light_positions_, light_directions_;
     std::vector<brume_plugin_gaussian> gaussians_;
     std::vector<brume_plugin_light> lights_;
+    brume_plugin_medium medium_{};
+    brume_plugin_camera camera_{};
     brume_plugin_scene scene_{};
 };
 
