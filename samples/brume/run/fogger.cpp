@@ -31,6 +31,45 @@ double detail_of(const ExrFile &file, const ColorChoice &color)
     return std::sqrt(measure(box_blurred(picture, 4), picture).relative_mse);
 }
 
+std::vector<brume_layer> input_layers(const std::vector<std::string> &roles)
+{
+    std::vector<brume_layer> layers;
+    for (const std::string &role : roles)
+        layers.push_back(layer_named(role.c_str(), nullptr));
+    return layers;
+}
+
+/// Inputs as a frame has them. The layers are kept by the caller.
+class GivenLayers {
+public:
+    GivenLayers(const std::vector<InputLayer> &inputs, int width, int height)
+    {
+        images_.reserve(inputs.size());
+        for (const InputLayer &input : inputs) {
+            // Inputs are only read.
+            images_.push_back(host_image(const_cast<float *>(input.pixels.data()), width, height, input.channels));
+            layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
+        }
+    }
+    void give_to(brume_frame &frame) const
+    {
+        frame.inputs = layers_.data();
+        frame.input_count = std::uint32_t(layers_.size());
+    }
+
+private:
+    std::vector<brume_image> images_;
+    std::vector<brume_layer> layers_;
+};
+
+bool reads_layer(brume_context context, const char *effect, const std::string &role)
+{
+    for (const brume_layer_info &layer : layers_of(context, effect))
+        if (layer.flags & BRUME_LAYER_INPUT && role == layer.name)
+            return true;
+    return false;
+}
+
 std::string missing_camera(std::uint32_t missing, const char *reason)
 {
     const char *what = missing == BRUME_CAMERA_POSE            ? "camera pose"
@@ -69,6 +108,7 @@ void FogOptions::add_to(CLI::App &command)
         ->delimiter(',')
         ->type_name("NAME,...")
         ->allow_extra_args(false);
+    add_input_option(command, inputs);
 }
 
 Fogger::Fogger(const FogOptions &options) : options_(options)
@@ -79,6 +119,7 @@ Fogger::Fogger(const FogOptions &options) : options_(options)
     context_ = create_context(options.backend);
     outputs_ = parse_layers(context_.get(), options.layers);
     output_layers_ = format_layers(outputs_);
+    inputs_ = parse_inputs(context_.get(), options.inputs);
     load_calibration(context_.get());
     scene_ = make_scene(context_.get(), text);
     const brume_scene scene = scene_.get();
@@ -110,7 +151,8 @@ void Fogger::ask_for_quality()
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth)
+void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
+                    const std::vector<OpenInput> &inputs)
 {
     brume_quality quality = BRUME_QUALITY_INIT;
     check_request(context_.get(), brume_scene_get_quality(scene_.get(), &quality), "quality");
@@ -123,6 +165,10 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     brume_layer wanted = layer_named("transmittance", nullptr);
     shot.format.outputs = &wanted;
     shot.format.output_count = 1;
+    const std::vector<std::string> roles = roles_of(inputs);
+    const std::vector<brume_layer> given = input_layers(roles);
+    shot.format.inputs = given.data();
+    shot.format.input_count = std::uint32_t(given.size());
     brume_quality draft = BRUME_QUALITY_INIT;
     draft.preset = BRUME_PRESET_DRAFT;
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &draft), "quality");
@@ -147,6 +193,11 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     call.output = &c;
     call.outputs = &wanted;
     call.output_count = 1;
+    std::vector<InputLayer> layers;
+    for (const OpenInput &input : inputs)
+        layers.push_back(read_input(input.file ? *input.file : file, input.choice, part));
+    const GivenLayers images(layers, width, height);
+    images.give_to(call);
     call.camera = &shot.camera;
     check_request(context_.get(), brume_plan_execute(made, &call), file.path().string());
     double sum = 0;
@@ -168,10 +219,49 @@ Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
     return shot;
 }
 
-brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights)
+void Fogger::learn_roles(const ExrFile &file, const ColorChoice &color)
 {
-    const Shot shot = shot_of(file, color);
-    const std::vector<double> key{double(shot.format.width),
+    const std::vector<std::string> roles = tool::known_roles(context_.get());
+    if (roles.empty())
+        return;
+    // Which effects run is the library's to say, so it is asked with all of the roles.
+    Shot shot = shot_of(file, color);
+    const std::vector<brume_layer> given = input_layers(roles);
+    shot.format.inputs = given.data();
+    shot.format.input_count = std::uint32_t(given.size());
+    brume_plan made = nullptr;
+    // What does not work here fails where the scene is planned as it is.
+    if (brume_plan_create(scene_.get(), &shot.format, &made) != BRUME_OK)
+        return;
+    const PlanHandle plan(made);
+    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    check_request(context_.get(), brume_plan_get_info(made, &info), "plan");
+    known_roles_.clear();
+    for (const std::string &role : roles)
+        for (std::uint32_t i = 0; i < info.entry_count; ++i) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            check_request(context_.get(), brume_plan_get_entry(made, i, &entry), "plan");
+            if (entry.runs && reads_layer(context_.get(), entry.effect, role)) {
+                known_roles_.push_back(role);
+                break;
+            }
+        }
+}
+
+std::vector<OpenInput> Fogger::open_inputs(const ExrFile &file, const ColorChoice &color, int number,
+                                           const ReadLimits &limits) const
+{
+    return tool::open_inputs(file, color, number, inputs_, known_roles_, limits);
+}
+
+brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+                            const std::vector<std::string> &roles)
+{
+    Shot shot = shot_of(file, color);
+    const std::vector<brume_layer> given = input_layers(roles);
+    shot.format.inputs = given.data();
+    shot.format.input_count = std::uint32_t(given.size());
+    const std::vector<double> pictures{double(shot.format.width),
                                   double(shot.format.height),
                                   double(shot.format.display_x),
                                   double(shot.format.display_y),
@@ -180,6 +270,7 @@ brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const
                                   weights[0],
                                   weights[1],
                                   weights[2]};
+    const std::pair key{pictures, roles};
     auto at = plans_.find(key);
     if (at == plans_.end()) {
         check_request(context_.get(), brume_scene_set_luminance_weights(scene_.get(), weights.data()), file.path().string());
@@ -198,7 +289,10 @@ brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const
 
 FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers)
 try {
-    const brume_plan plan = plan_for(frame.file, frame.color, weights);
+    std::vector<std::string> roles;
+    for (const InputLayer &input : frame.inputs)
+        roles.push_back(input.role);
+    const brume_plan plan = plan_for(frame.file, frame.color, weights, roles);
     const Shot shot = shot_of(frame.file, frame.color);
     const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);
     const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
@@ -222,6 +316,8 @@ try {
     call.output = &color;
     call.outputs = wanted.data();
     call.output_count = std::uint32_t(wanted.size());
+    const GivenLayers inputs(frame.inputs, frame.width, frame.height);
+    inputs.give_to(call);
     call.camera = &shot.camera;
     call.frame = number;
     check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());
