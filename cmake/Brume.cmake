@@ -1,14 +1,6 @@
 # Functions that the library, its plugins and the tests share.
 
-# brume_embed(TARGET NAMESPACE FUNCTION FILES...): the files' texts, embedded into TARGET.
-function(brume_embed target namespace function)
-  set(output ${CMAKE_CURRENT_BINARY_DIR}/${target}_${function}.cpp)
-  add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DNAMESPACE=${namespace} -DFUNCTION=${function} "-DFILES=${ARGN}"
-            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
-    DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake VERBATIM)
-  target_sources(${target} PRIVATE ${output})
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/BrumeEmbed.cmake)
 
 # brume_check_shader(TARGET FILE [DEFINES...]): the pass goes through glslangValidator at build time, preceded by what the
 # host puts before it, with these NAME=VALUE and its includes from shaders/lib. Once for every set that is in use.

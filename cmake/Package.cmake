@@ -11,7 +11,7 @@ install(EXPORT brume-targets NAMESPACE brume:: DESTINATION ${CMAKE_INSTALL_LIBDI
 configure_package_config_file(cmake/brume-config.cmake.in ${CMAKE_BINARY_DIR}/brume-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/brume-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/brume-config.cmake ${CMAKE_BINARY_DIR}/brume-config-version.cmake
+install(FILES cmake/BrumeEmbed.cmake cmake/EmbedText.cmake ${CMAKE_BINARY_DIR}/brume-config.cmake ${CMAKE_BINARY_DIR}/brume-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume COMPONENT development)
 # Relative, so that `cmake --install --prefix` and the .deb may put it anywhere.
 file(RELATIVE_PATH BRUME_PREFIX_FROM_PC /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/passes.hpp"
+#include "pass_tables.hpp"
 #include "settings.h"
 #include "state.h"
 

@@ -1,7 +1,7 @@
 // Tier `reference`: adaptive quadrature in double along each pixel's ray, on the CPU.
 #include <vector>
 
-#include "common/pixels.hpp"
+#include "pixels.hpp"
 #include "passes.h"
 #include "reference_ray.h"
 #include "settings.h"

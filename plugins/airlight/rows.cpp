@@ -1,5 +1,5 @@
 // The passes on the CPU: loops over rows around the functions of shaders/lib/airlight*.glsl.
-#include "common/pixels.hpp"
+#include "pixels.hpp"
 #include "passes.h"
 
 namespace airlight {

@@ -1,6 +1,6 @@
 #include "parameters.h"
 
-#include "common/parameter_info.hpp"
+#include "parameter_info.hpp"
 
 namespace multiscatter {
 namespace {

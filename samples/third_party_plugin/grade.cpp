@@ -1,12 +1,24 @@
-// grade: exposure and saturation of the picture that the other effects leave. A whole effect in one file; README.md
-// walks through it.
-#include <algorithm>
+// grade: exposure and saturation of the picture that the other effects leave. README.md walks through it.
 #include <cmath>
 #include <new>
+#include <string>
+#include <string_view>
 
 #include <brume/brume_plugin.h>
+#include <brume/maths/pass_tables.hpp>
+#include <brume/maths/pixels.hpp>
+
+namespace grade {
+
+std::string_view text(std::string_view file);  // embedded by CMakeLists.txt
 
 namespace {
+
+using namespace brume::maths_float;
+using real = float;
+#include <brume/maths/formulas_begin.hpp>
+#include "grade.glsl"
+#include <brume/maths/formulas_end.hpp>
 
 const brume_parameter_info parameters[] = {
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, -20, 20, 0, "exposure", "stops", "Brightens by powers of two",
@@ -15,117 +27,34 @@ const brume_parameter_info parameters[] = {
      "Distance of the colours from their grey: 0 is grey, 1 leaves them", ""},
 };
 
-// What a plan keeps for its frames.
-struct Grade {
-    int32_t width, height;
+// What the shader has as uniforms of these names.
+struct Constants {
     float gain, saturation;
-    brume_program program;  // GL only
+};
+constexpr brume_constant constants[] = {BRUME_CONSTANT(Constants, gain), BRUME_CONSTANT(Constants, saturation)};
+
+enum { color, result };
+constexpr brume_slot slots[] = {brume_passes::fetch("color"), brume_passes::write("result")};
+
+// The CPU's half of the pass. Runs on several threads at once: it writes its own rows and nothing else.
+brume_status rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const Constants &c = *static_cast<const Constants *>(call->constants);
+    const Medium medium = medium_of(*call->scene);
+    return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
+        const vec4 from = brume_pixels::load(call->slots[color], x, y);
+        brume_pixels::store(call->slots[result], x, y, graded(medium, from, c.gain, c.saturation, call->scene->output_limit));
+    });
+}
+
+// What a plan keeps for its frames.
+struct State {
+    int32_t width, height;
+    Constants constants;
+    brume_pass pass;
 };
 
-// ---- GL --------------------------------------------------------------------------------------------------------------
-
-const char *const shader = R"(
-#include "scene.glsl"
-uniform Medium brume_medium;
-uniform float gain;
-uniform float saturation;
-uniform float limit;
-uniform sampler2D color;
-writeonly uniform image2D result;
-
-// All in halves: the difference of two large radiances must not become infinite.
-float finite_half(float x)
-{
-    return is_finite(x) ? 0.5 * x : 0.0;
-}
-
-float graded(float x, float grey)
-{
-    return is_finite(x) ? clamp(2.0 * gain * (grey + saturation * (0.5 * x - grey)), -limit, limit) : x;
-}
-
-void main()
-{
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (p.x >= brume_grid.x || p.y >= brume_grid.y)
-        return;
-    vec4 x = texelFetch(color, p, 0);
-    float grey = dot(vec3(finite_half(x.r), finite_half(x.g), finite_half(x.b)), brume_medium.luminance);
-    imageStore(result, p, vec4(graded(x.r, grey), graded(x.g, grey), graded(x.b, grey), x.a));
-}
-)";
-
-brume_status execute_on_gl(const brume_services *services, brume_host host, const Grade &grade,
-                           const brume_plugin_frame &frame)
-{
-    const brume_plugin_binding bindings[] = {{"color", frame.color, BRUME_ACCESS_FETCH, 0},
-                                             {"result", frame.output, BRUME_ACCESS_WRITE, 0}};
-    const brume_plugin_uniform uniforms[] = {{"gain", BRUME_UNIFORM_FLOAT, 1, 1, 0, &grade.gain},
-                                             {"saturation", BRUME_UNIFORM_FLOAT, 1, 1, 0, &grade.saturation},
-                                             {"limit", BRUME_UNIFORM_FLOAT, 1, 1, 0, &frame.scene->output_limit}};
-    brume_plugin_pass pass{};
-    pass.struct_size = sizeof pass;
-    pass.name = "grade";
-    pass.program = grade.program;
-    pass.bindings = bindings;
-    pass.binding_count = 2;
-    pass.uniforms = uniforms;
-    pass.uniform_count = 3;
-    pass.width = grade.width;
-    pass.height = grade.height;
-    return services->run(host, &pass);
-}
-
-// ---- CPU -------------------------------------------------------------------------------------------------------------
-
-struct Rows {
-    const Grade &grade;
-    const brume_plugin_scene &scene;
-    brume_plugin_pixels from, to;
-};
-
-float finite_half(float x)
-{
-    return std::isfinite(x) ? 0.5f * x : 0.0f;
-}
-
-// Runs on several threads at once: it writes its own rows and nothing else.
-brume_status grade_rows(void *user, int32_t first, int32_t last)
-{
-    const Rows &rows = *static_cast<const Rows *>(user);
-    const float gain = rows.grade.gain, saturation = rows.grade.saturation, limit = rows.scene.output_limit;
-    const float *luminance = rows.scene.medium.luminance;
-    const auto graded = [&](float x, float grey) {
-        return std::isfinite(x) ? std::clamp(2.0f * gain * (grey + saturation * (0.5f * x - grey)), -limit, limit) : x;
-    };
-    for (int32_t y = first; y < last; ++y) {
-        const float *from = rows.from.data + y * rows.from.row_stride;
-        float *to = rows.to.data + y * rows.to.row_stride;
-        for (int32_t x = 0; x < rows.from.width; ++x, from += 4, to += 4) {
-            const float grey = luminance[0] * finite_half(from[0]) + luminance[1] * finite_half(from[1]) +
-                               luminance[2] * finite_half(from[2]);
-            for (int c = 0; c < 3; ++c)
-                to[c] = graded(from[c], grey);
-            to[3] = from[3];
-        }
-    }
-    return BRUME_OK;
-}
-
-brume_status execute_on_cpu(const brume_services *services, brume_host host, const Grade &grade,
-                            const brume_plugin_frame &frame)
-{
-    Rows rows{grade, *frame.scene, {}, {}};
-    if (const brume_status status = services->pixels(host, frame.color, &rows.from))
-        return status;
-    if (const brume_status status = services->pixels(host, frame.output, &rows.to))
-        return status;
-    return services->rows(host, "grade", grade.height, 16, grade_rows, &rows);
-}
-
-// ---- the table -------------------------------------------------------------------------------------------------------
-
-brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state)
+brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *request, void **out)
 {
     const double exposure = request->parameters[0], saturation = request->parameters[1];
     const bool needed = exposure != 0 || saturation != 1;
@@ -139,25 +68,26 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
     entry.operations = pixels * 20;
     if (const brume_status status = services->add_entry(host, &entry); status || !needed)
         return status;
-
-    brume_program program = nullptr;
-    if (request->backend == BRUME_BACKEND_GL)
-        if (const brume_status status = services->compile(host, "grade", shader, "", &program))
-            return status;
-    *state =
-        new (std::nothrow) Grade{request->width, request->height, float(std::exp2(exposure)), float(saturation), program};
-    return *state ? BRUME_OK : services->fail(host, BRUME_ERROR_MEMORY, "no memory for the plan's state");
+    State *state = new (std::nothrow)
+        State{request->width, request->height, {float(std::exp2(exposure)), float(saturation)}, nullptr};
+    if (!state)
+        return services->fail(host, BRUME_ERROR_MEMORY, "no memory for the plan's state");
+    *out = state;
+    const std::string shader = "#include \"scene.glsl\"\n" + std::string(text("grade.glsl")) + std::string(text("grade.comp"));
+    return brume_passes::create(*services, host, brume_passes::described("grade", slots, constants, sizeof(Constants)),
+                                "grade.comp", shader, "", rows, state->pass);
 }
 
-brume_status execute(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame)
+brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
 {
-    const Grade &grade = *static_cast<const Grade *>(state);
-    return grade.program ? execute_on_gl(services, host, grade, *frame) : execute_on_cpu(services, host, grade, *frame);
+    const State &state = *static_cast<const State *>(opaque);
+    const brume_plugin_image images[] = {frame->color, frame->output};
+    return services->run(host, state.pass, images, &state.constants, state.width, state.height, nullptr);
 }
 
 void destroy(void *state)
 {
-    delete static_cast<Grade *>(state);
+    delete static_cast<State *>(state);
 }
 
 const brume_effect effect = [] {
@@ -178,8 +108,9 @@ const brume_effect effect = [] {
 }();
 
 }  // namespace
+}  // namespace grade
 
 BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
 {
-    return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
+    return host_abi == BRUME_PLUGIN_ABI ? &grade::effect : nullptr;
 }

@@ -32,10 +32,21 @@ struct brume_media_t {
     brume::media::History history;
 };
 
+namespace brume::api {
+
+// What was read of a frame's layers; kept so that frames allocate nothing once warm.
+struct LayersOfFrame {
+    std::vector<brume_layer> layers;
+    std::vector<brume_image> images;
+};
+
+}  // namespace brume::api
+
 struct brume_plan_t {
     std::shared_ptr<brume::Context> context;
     std::unique_ptr<brume_host_t> plan;
     std::string quality;
+    brume::api::LayersOfFrame inputs, outputs;  // of the last frame
 };
 
 namespace brume::api {

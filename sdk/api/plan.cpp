@@ -23,30 +23,31 @@ brume_camera read_camera(const brume_camera *given, const char *name)
 
 namespace {
 
-// A caller's layers by their stride; of formats without their images.
-std::vector<brume_layer> read_layers(const brume_layer *given, uint32_t count, const std::string &name, bool of_frame)
+// A caller's layers by their stride; of formats without their images. Names for messages are made only where something is wrong.
+void read_layers(const brume_layer *given, uint32_t count, const char *name, bool of_frame, std::vector<brume_layer> &layers)
 {
     if (count > BRUME_MAX_LAYERS)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {} layers; expected 0 to {}", name, count, BRUME_MAX_LAYERS));
     if (count > 0 && !given)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: NULL; expected {} layers", name, count));
-    std::vector<brume_layer> layers(count);
+    layers.resize(count);
     for (uint32_t i = 0; i < count; ++i) {
-        const std::string element_name = fmt::format("{}[{}]", name, i);
+        auto refuse = [&](const std::string &problem) {
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}[{}]{}", name, i, problem));
+        };
         brume_layer &layer = layers[i];
-        layer = read_struct(element(given, i), brume_layer BRUME_LAYER_INIT, element_name.c_str(), &brume_layer::kind,
-                            &brume_layer::name, &brume_layer::image, &brume_layer::light, &brume_layer::reserved);
+        layer = read_struct(element(given, i), brume_layer BRUME_LAYER_INIT, name, &brume_layer::kind, &brume_layer::name,
+                            &brume_layer::image, &brume_layer::light, &brume_layer::reserved);
         if (!layer.name || !*layer.name)
-            throw Error(BRUME_ERROR_ARGUMENT, element_name + ".name: " + (layer.name ? "empty" : "NULL") + "; expected that of a layer");
+            refuse(fmt::format(".name: {}; expected that of a layer", layer.name ? "empty" : "NULL"));
         if (layer.kind > BRUME_LAYER_CAMERA)
-            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.kind: {}; expected a BRUME_LAYER_...", element_name, layer.kind));
+            refuse(fmt::format(".kind: {}; expected a BRUME_LAYER_...", layer.kind));
         if (layer.reserved != 0)
-            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.reserved: {}; expected 0", element_name, layer.reserved));
+            refuse(fmt::format(".reserved: {}; expected 0", layer.reserved));
         for (uint32_t k = 0; k < i && !of_frame; ++k)
             if (std::string_view(layers[k].name) == layer.name)
-                throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{} ({}): given twice", element_name, layer.name));
+                refuse(fmt::format(" ({}): given twice", layer.name));
     }
-    return layers;
 }
 
 }  // namespace
@@ -81,8 +82,9 @@ Format read_format(const brume_format *given)
     expect(!device || range[0] != range[1], "brume_format.depth_range", given_range, "two different distances");
     expect(format.sky != BRUME_SKY_CLAMP || (format.sky_distance >= 0 && std::isfinite(format.sky_distance)),
            "brume_format.sky_distance", format.sky_distance, "a finite distance of 0 or more");
-    const std::vector<brume_layer> inputs = read_layers(format.inputs, format.input_count, "brume_format.inputs", false),
-                                   outputs = read_layers(format.outputs, format.output_count, "brume_format.outputs", false);
+    std::vector<brume_layer> inputs, outputs;
+    read_layers(format.inputs, format.input_count, "brume_format.inputs", false, inputs);
+    read_layers(format.outputs, format.output_count, "brume_format.outputs", false, outputs);
     format.inputs = inputs.data();
     format.outputs = outputs.data();
     return format;
@@ -144,19 +146,16 @@ brume_image read_image(const brume_image *given, const char *name)
 namespace {
 
 // A frame's layers with their images read.
-struct LayersOfFrame {
-    LayersOfFrame(const brume_layer *given, uint32_t count, const std::string &name)
-        : layers(read_layers(given, count, name, true)), images(count)
-    {
-        for (uint32_t i = 0; i < count; ++i) {
-            images[i] = read_image(layers[i].image, fmt::format("{}[{}] ({}).image", name, i, layers[i].name).c_str());
-            layers[i].image = &images[i];
-        }
+const brume_layer *read_frame_layers(const brume_layer *given, uint32_t count, const char *name, LayersOfFrame &out)
+{
+    read_layers(given, count, name, true, out.layers);
+    out.images.resize(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        out.images[i] = read_image(out.layers[i].image, out.layers[i].name);
+        out.layers[i].image = &out.images[i];
     }
-
-    std::vector<brume_layer> layers;
-    std::vector<brume_image> images;
-};
+    return out.layers.data();
+}
 
 template <class Function> brume_status with_plan(brume_plan plan, Function function)
 {
@@ -178,7 +177,7 @@ brume_status brume_plan_create(brume_scene scene, const brume_format *format, br
     return barrier(scene->context.get(), [&] {
         expect(out, "out: NULL");
         Chosen chosen = plan_with_quality(scene->context, scene->scene, read_format(format));
-        *out = new brume_plan_t{scene->context, std::move(chosen.plan), std::move(chosen.quality)};
+        *out = new brume_plan_t{scene->context, std::move(chosen.plan), std::move(chosen.quality), {}, {}};
     });
 }
 
@@ -252,9 +251,8 @@ brume_status brume_plan_execute(brume_plan handle, const brume_frame *given)
             camera = read_camera(frame.camera, "camera");
             frame.camera = &camera;
         }
-        const LayersOfFrame inputs(frame.inputs, frame.input_count, "inputs"), outputs(frame.outputs, frame.output_count, "outputs");
-        frame.inputs = inputs.layers.data();
-        frame.outputs = outputs.layers.data();
+        frame.inputs = read_frame_layers(frame.inputs, frame.input_count, "inputs", handle->inputs);
+        frame.outputs = read_frame_layers(frame.outputs, frame.output_count, "outputs", handle->outputs);
         Progress &progress = handle->context->progress;
         progress.begin();
         plan.execute(frame);

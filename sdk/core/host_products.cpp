@@ -57,7 +57,7 @@ void run(brume_host_t &host, brume_pass pass, const brume_plugin_image *images, 
 
 }  // namespace
 
-bool HostProducts::makes(const std::string &product)
+bool HostProducts::makes(std::string_view product)
 {
     for (const char *name : {"density", "density_rgb", "gaussian_density", "gaussians", "lights", "visible_lights"})
         if (product == name)
@@ -128,7 +128,8 @@ void HostProducts::upload_gaussians(brume_host_t &host, const brume_plugin_scene
 
 void HostProducts::upload_visible_lights(brume_host_t &host, const brume_plugin_scene &scene)
 {
-    std::vector<float> spheres;
+    std::vector<float> &spheres = spheres_;
+    spheres.clear();
     for (uint32_t i = 0; i < scene.light_count; ++i)
         if (const brume_plugin_light &light = scene.lights[i]; light.radius > 0)
             spheres.insert(spheres.end(), {light.position[0], light.position[1], light.position[2], light.radius});

@@ -13,7 +13,7 @@ namespace brume {
 // are services' like an effect's.
 class HostProducts {
 public:
-    static bool makes(const std::string &product);
+    static bool makes(std::string_view product);
 
     // uses: names of the products that running effects use. Throws Error.
     void plan(brume_host_t &host, const std::vector<std::string> &uses, const brume_plugin_scene &scene, const FrameLayers &layers,
@@ -34,6 +34,7 @@ private:
     brume_pass density_pass_ = nullptr, gaussian_pass_ = nullptr;
     brume_plugin_image gaussians_ = nullptr, tiles_ = nullptr, tile_gaussians_ = nullptr;
     GaussianTiles lists_;
+    std::vector<float> spheres_;
 
     // What was uploaded.
     bool uploaded_ = false;

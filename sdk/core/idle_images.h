@@ -6,6 +6,8 @@
 #include <mutex>
 #include <new>
 
+#include "core/recycling_allocator.h"
+
 namespace brume {
 
 // Plans used in turn, or a resized window that snaps back, find their images again within this many frames.
@@ -101,7 +103,7 @@ private:
     }
 
     mutable std::mutex mutex_;
-    std::list<std::unique_ptr<Image>> idle_;  // given back last first
+    std::list<std::unique_ptr<Image>, RecyclingAllocator<std::unique_ptr<Image>>> idle_;  // given back last first
     uint64_t used_ = 0, most_used_ = 0, idle_bytes_ = 0;
     uint64_t frame_ = 0;
     bool closed_ = false;

@@ -76,7 +76,7 @@ void FrameLayers::plan(const Format &format, const EffectRegistry &effects)
     images_.resize(layers_.size());
 }
 
-int FrameLayers::index_of(const std::string &name, uint32_t direction) const
+int FrameLayers::index_of(std::string_view name, uint32_t direction) const
 {
     for (size_t i = 0; i < layers_.size(); ++i)
         if ((layers_[i].flags & direction) && layers_[i].name.name == name)
@@ -84,7 +84,7 @@ int FrameLayers::index_of(const std::string &name, uint32_t direction) const
     return -1;
 }
 
-const FormatLayer *FrameLayers::find(const std::string &name, uint32_t direction) const
+const FormatLayer *FrameLayers::find(std::string_view name, uint32_t direction) const
 {
     const int at = index_of(name, direction);
     return at < 0 ? nullptr : &layers_[size_t(at)];
@@ -220,7 +220,7 @@ void FrameLayers::see(const std::vector<int> &places, std::vector<brume_plugin_l
     }
 }
 
-brume_plugin_image FrameLayers::input(const std::string &name) const
+brume_plugin_image FrameLayers::input(std::string_view name) const
 {
     const int at = index_of(name, BRUME_LAYER_INPUT);
     return at < 0 ? nullptr : images_[size_t(at)].image.get();

@@ -27,7 +27,7 @@ public:
 
     // For each layer of an effect's table: 1 if the format has it.
     std::vector<uint32_t> given(const std::vector<Layer> &table) const;
-    bool has_input(const std::string &name) const { return find(name, BRUME_LAYER_INPUT) != nullptr; }
+    bool has_input(std::string_view name) const { return find(name, BRUME_LAYER_INPUT) != nullptr; }
 
     const std::vector<FormatLayer> &all() const { return layers_; }
 
@@ -43,7 +43,7 @@ public:
     // In the order of an effect's table, where `of` holds the indices that places() gave.
     void see(const std::vector<int> &places, std::vector<brume_plugin_layer> &out) const;
     std::vector<int> places(const std::vector<Layer> &table) const;
-    brume_plugin_image input(const std::string &name) const;
+    brume_plugin_image input(std::string_view name) const;
 
 private:
     // An image of the frame at hand, or one for each light.
@@ -53,8 +53,8 @@ private:
         bool there = false;
     };
 
-    const FormatLayer *find(const std::string &name, uint32_t direction) const;
-    int index_of(const std::string &name, uint32_t direction) const;
+    const FormatLayer *find(std::string_view name, uint32_t direction) const;
+    int index_of(std::string_view name, uint32_t direction) const;
     void put(int at, const brume_layer &layer, std::shared_ptr<Image> image, size_t lights);
 
     std::vector<FormatLayer> layers_;

@@ -184,7 +184,7 @@ void brume_host_t::set_parameters()
     }
 }
 
-bool brume_host_t::is_made_by(const PlannedEffect &planned, const std::string &product) const
+bool brume_host_t::is_made_by(const PlannedEffect &planned, std::string_view product) const
 {
     const Effect &effect = *planned.effect;
     const auto found = std::find(effect.makes.begin(), effect.makes.end(), product);
@@ -197,7 +197,7 @@ bool brume_host_t::is_made_by(const PlannedEffect &planned, const std::string &p
     }
 }
 
-uint32_t brume_host_t::made(const std::string &product) const
+uint32_t brume_host_t::made(std::string_view product) const
 {
     if (product == "density_rgb")
         return layers_.has_input("optical_depth") || layers_.has_input("transmittance") ? BRUME_MADE_EARLIER : BRUME_MADE_NOWHERE;

@@ -78,7 +78,7 @@ public:
     void need_camera(uint32_t needs, const std::string &reason);
     brume_plugin_image create_image(const char *label, int32_t width, int32_t height, int32_t channels);
     brume_pass create_pass(const brume_pass_desc &desc);
-    uint32_t made(const std::string &product) const;
+    uint32_t made(std::string_view product) const;
     brume_status run(brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
                      void *user);
     brume_plugin_image upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels);
@@ -107,7 +107,7 @@ private:
     void release() noexcept;
     void destroy_states() noexcept;
     double share_before(int entry) const;  // of the frame's predicted time
-    bool is_made_by(const brume::PlannedEffect &planned, const std::string &product) const;
+    bool is_made_by(const brume::PlannedEffect &planned, std::string_view product) const;
 
     int64_t run_effects(const brume_frame &frame);
     void run_effect(brume::PlannedEffect &planned, brume_plugin_frame &seen);

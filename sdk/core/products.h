@@ -1,6 +1,7 @@
 #pragma once
 #include <deque>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <brume/brume_plugin.h>
@@ -18,10 +19,10 @@ public:
     };
 
     // The product of this name, without images until somebody makes it. Stays where it is.
-    Product &of(const std::string &name);
+    Product &of(std::string_view name);
 
     // A product's images from now on.
-    void publish(const std::string &name, const brume_plugin_image *images, uint32_t image_count, uint32_t count,
+    void publish(std::string_view name, const brume_plugin_image *images, uint32_t image_count, uint32_t count,
                  uint64_t revision);
 
     static brume_plugin_product seen(const Product &product)

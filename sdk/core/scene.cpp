@@ -120,17 +120,17 @@ void evaluate_density(const Scene &scene, const FrameValues &values, const std::
     const bool gaussians = !scene.medium->gaussians.empty() || !scene.medium->gaussian_sets.empty();
     double constant = terms.empty() && !gaussians ? 1.0 : 0.0;
     for (size_t i = 0; i < terms.size(); ++i) {
-        const std::string name = fmt::format("medium.density[{}]", i);
+        const ValueName name("medium.density", int64_t(i));
         const DensityTerm &term = terms[i];
         const bool exponential = term.type == BRUME_DENSITY_EXPONENTIAL;
-        const double value = values.get(term.value, ranges::not_negative, name + ".value");
-        const double falloff = exponential ? values.get(term.falloff, ranges::not_negative, name + ".falloff") : 0.0;
+        const double value = values.get(term.value, ranges::not_negative, name.of(".value"));
+        const double falloff = exponential ? values.get(term.falloff, ranges::not_negative, name.of(".falloff")) : 0.0;
         if (falloff == 0.0) {
             constant += value;
             continue;
         }
-        const std::array<double, 3> n = values.unit_vector(term.direction, name + ".direction");
-        const std::array<double, 3> origin = values.get(term.origin, ranges::any, name + ".origin");
+        const std::array<double, 3> n = values.unit_vector(term.direction, name.of(".direction"));
+        const std::array<double, 3> origin = values.get(term.origin, ranges::any, name.of(".origin"));
         if (value == 0.0)
             continue;
         if (out.term_count == int32_t(BRUME_MAX_DENSITY_TERMS))

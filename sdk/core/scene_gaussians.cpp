@@ -35,13 +35,13 @@ private:
     std::vector<brume_plugin_gaussian> &out_;
 };
 
-Gaussian evaluate(const GaussianTerm &term, const FrameValues &values, const std::string &name)
+Gaussian evaluate(const GaussianTerm &term, const FrameValues &values, const ValueName &name)
 {
     Gaussian gaussian;
-    gaussian.center = values.get(term.center, ranges::any, name + ".center");
-    gaussian.scale = values.get(term.scale, ranges::positive, name + ".scale");
-    gaussian.amplitude = values.get(term.amplitude, ranges::not_negative, name + ".amplitude");
-    const std::array<double, 3> colour = values.get(term.colour, ranges::fraction, name + ".colour");
+    gaussian.center = values.get(term.center, ranges::any, name.of(".center"));
+    gaussian.scale = values.get(term.scale, ranges::positive, name.of(".scale"));
+    gaussian.amplitude = values.get(term.amplitude, ranges::not_negative, name.of(".amplitude"));
+    const std::array<double, 3> colour = values.get(term.colour, ranges::fraction, name.of(".colour"));
     for (size_t i = 0; i < 3; ++i)
         gaussian.colour[i] = float(colour[i]);
     return gaussian;
@@ -60,9 +60,9 @@ void evaluate_gaussians(const Scene &scene, double frame, const std::array<doubl
     Collector collector(pose, out);
     const std::vector<GaussianTerm> &terms = scene.medium->gaussians;
     for (size_t i = 0; i < terms.size(); ++i)
-        collector.add(evaluate(terms[i], values, fmt::format("medium.gaussians[{}]", i)), 1.0);
+        collector.add(evaluate(terms[i], values, {"medium.gaussians", int64_t(i)}), 1.0);
     for (const GaussianSet &set : scene.medium->gaussian_sets) {
-        const double amplitude = values.get(set.amplitude, ranges::not_negative, set.file + ": amplitude");
+        const double amplitude = values.get(set.amplitude, ranges::not_negative, {set.file, -1, ": amplitude"});
         if (amplitude == 0.0)
             continue;
         const auto gaussians = set.frames ? set.frames->at(frame) : set.fixed;

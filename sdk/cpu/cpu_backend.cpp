@@ -36,7 +36,8 @@ public:
             idle_.add(*image);
         }
         return {image.release(),
-                [pool = shared_from_this()](CpuImage *back) { pool->idle_.put_back(std::unique_ptr<CpuImage>(back)); }};
+                [pool = shared_from_this()](CpuImage *back) { pool->idle_.put_back(std::unique_ptr<CpuImage>(back)); },
+                RecyclingAllocator<CpuImage>()};
     }
 
     void age() { idle_.age(); }
@@ -268,7 +269,7 @@ private:
 
     static std::shared_ptr<CpuImage> wrap(const brume_image &image, const HostPixels &host)
     {
-        auto wrapped = std::make_shared<CpuImage>();
+        auto wrapped = std::allocate_shared<CpuImage>(RecyclingAllocator<CpuImage>());
         wrapped->width = image.width;
         wrapped->height = image.height;
         wrapped->channels = host.channels;

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/recycling_allocator.h"
 #include "gl/debug_group.h"
 #include "gl/error.h"
 
@@ -233,7 +234,7 @@ void require_writable(const HostTexture &texture, int32_t channels, const std::s
 
 std::shared_ptr<GlImage> wrap(const HostTexture &texture)
 {
-    auto image = std::make_shared<GlImage>();
+    auto image = std::allocate_shared<GlImage>(RecyclingAllocator<GlImage>());
     image->width = texture.width;
     image->height = texture.height;
     image->channels = texture.scalar ? 1 : 4;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "gl/error.h"
@@ -60,13 +62,12 @@ ImagePool::ImagePool(std::shared_ptr<Disposal> disposal) : disposal_(std::move(d
 std::shared_ptr<GlImage> ImagePool::take(int32_t width, int32_t height, int32_t channels, uint32_t pixel)
 {
     const GLenum format = image_format(channels, pixel);
-    const std::string size = std::to_string(width) + " x " + std::to_string(height);
     if (width < 1 || height < 1)
-        throw Error(BRUME_ERROR_ARGUMENT, "an image of " + size + "; expected at least 1 x 1");
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("an image of {} x {}; expected at least 1 x 1", width, height));
     if (width > largest_size_ || height > largest_size_)
-        throw Error(BRUME_ERROR_UNSUPPORTED, "an image of " + size +
-                                                 " is larger than this device's textures, which have at most " +
-                                                 std::to_string(largest_size_) + " pixels a side");
+        throw Error(BRUME_ERROR_UNSUPPORTED,
+                    fmt::format("an image of {} x {} is larger than this device's textures, which have at most {} pixels a side", width,
+                                height, largest_size_));
 
     std::unique_ptr<GlImage> image =
         idle_.take([&](const GlImage &one) { return one.width == width && one.height == height && one.format == format; });
@@ -85,7 +86,8 @@ std::shared_ptr<GlImage> ImagePool::take(int32_t width, int32_t height, int32_t 
         idle_.add(*image);
     }
     return {image.release(),
-            [pool = shared_from_this()](GlImage *back) { pool->idle_.put_back(std::unique_ptr<GlImage>(back)); }};
+            [pool = shared_from_this()](GlImage *back) { pool->idle_.put_back(std::unique_ptr<GlImage>(back)); },
+            RecyclingAllocator<GlImage>()};
 }
 
 std::unique_ptr<GlImage> ImagePool::allocate(int32_t width, int32_t height, int32_t channels, GLenum format)

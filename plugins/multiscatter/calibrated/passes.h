@@ -1,6 +1,6 @@
 #pragma once
 // The passes of kernel `calibrated`: what each reads, writes and is told, in the order of shaders/passes/multiscatter_*.comp.
-#include "common/passes.hpp"
+#include "pass_tables.hpp"
 #include "state.h"
 
 namespace multiscatter {

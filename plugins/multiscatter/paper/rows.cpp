@@ -1,5 +1,5 @@
 // Kernel `paper` on the CPU: loops over rows around the functions of shaders/lib/multiscatter.glsl.
-#include "common/pixels.hpp"
+#include "pixels.hpp"
 #include "paper/passes.h"
 
 namespace multiscatter {

@@ -1,7 +1,7 @@
 #include "reference/reference.h"
 
-#include "common/passes.hpp"
-#include "common/pixels.hpp"
+#include "pass_tables.hpp"
+#include "pixels.hpp"
 
 namespace multiscatter {
 
