@@ -111,7 +111,8 @@ void print_effect(brume_context context, const brume_effect_info &effect)
     for (std::uint32_t i = 0; i < effect.parameter_count; ++i) {
         brume_parameter_info p = BRUME_PARAMETER_INFO_INIT;
         check_request(context, brume_parameter_get_info(context, effect.name, i, &p), effect.name);
-        fmt::print("  {:<20} {:<8} default {:<10} {:<24} {}\n", p.name, type_text(p), default_text(p), range_text(p), p.help);
+        fmt::print("  {:<20} {:<8} default {:<10} {:<24} {}\n", p.name, type_text(p), default_text(p), range_text(p),
+                   p.help);
     }
     print_layers(context, effect.name);
 }
@@ -166,8 +167,8 @@ int schema()
 
 void add_effects(CLI::App &app, Action &chosen)
 {
-    auto *command =
-        app.add_subcommand("effects", "List effects, their parameters (type, default, range, unit) and the layers they read and fill");
+    auto *command = app.add_subcommand(
+        "effects", "List effects, their parameters (type, default, range, unit) and the layers they read and fill");
     auto options = std::make_shared<EffectsOptions>();
     command->add_option("NAME", options->name, "Only this effect");
     command->add_flag("--json", options->json, "Print JSON");

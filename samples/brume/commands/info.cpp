@@ -102,18 +102,28 @@ void describe_camera(ordered_json &info, const ExrFile &file, const InfoOptions 
         c["notes"] = camera.notes;
 }
 
-void describe_inputs(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice *color, int frame)
+void describe_inputs(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice *color,
+                     int frame)
 {
     const ContextHandle context = create_context("cpu");
     const std::vector<InputRequest> asked = parse_inputs(context.get(), options.inputs);
     if (!color && asked.empty())
         return;
     if (!color)
-        throw RequestError(fmt::format("--input {}: {} has no colour that it could go with", asked.front().role,
-                                       file.path().string()));
+        throw RequestError(
+            fmt::format("--input {}: {} has no colour that it could go with", asked.front().role, file.path().string()));
     info["inputs"] = ordered_json::object();
-    for (const OpenInput &input : open_inputs(file, *color, frame, asked, known_roles(context.get()), {}))
+    for (const OpenInput &input : open_inputs(file, *color, frame, asked, {}, {}))
         info["inputs"][input.choice.role] = description(input);
+    // No scene says here that some effect will want them.
+    for (const std::string &role : known_roles(context.get()))
+        if (!info["inputs"].contains(role))
+            try {
+                if (auto choice = find_known_input(file, role, *color))
+                    info["inputs"][role] = description({std::move(*choice), std::nullopt});
+            } catch (const RequestError &e) {
+                info["inputs"][role] = fmt::format("none: {}", e.what());
+            }
 }
 
 std::string window_text(const ordered_json &w)
@@ -156,7 +166,7 @@ void print_text(const ordered_json &info)
                    depth["nan_pixels"].get<std::uint64_t>());
     if (info.contains("inputs"))
         for (const auto &[role, choice] : info["inputs"].items())
-            fmt::print("input    {} from {}\n", printable(role), text(choice));
+            fmt::print("input    {}: {}\n", printable(role), text(choice));
     const auto &camera = info["camera"];
     if (camera.contains("fov_from"))
         fmt::print("camera   vertical field of view {:.4g} degrees, centre ({:.4g}, {:.4g}), from {}\n",

@@ -18,8 +18,8 @@ struct Plane {
     std::size_t sample_bytes = 0;
 };
 
-/// A layer that is given to the library, over the data window of the picture that it goes with. Where it has no sample there is
-/// no medium: transmittance is 1 there, all else 0.
+/// A layer that is given to the library, over the data window of the picture that it goes with. Where it has no sample there
+/// is no medium: transmittance is 1 there, all else 0.
 struct InputLayer {
     std::string role;
     int channels = 3;

@@ -17,8 +17,8 @@ namespace {
 struct KnownName {
     const char *role, *layer;
 };
-constexpr KnownName kKnownNames[] = {{"normal", "normal"},     {"normal", "n"},           {"albedo", "albedo"},
-                                     {"albedo", "diffcol"},    {"specular", "specular"},  {"specular", "glosscol"},
+constexpr KnownName kKnownNames[] = {{"normal", "normal"},      {"normal", "n"},          {"albedo", "albedo"},
+                                     {"albedo", "diffcol"},     {"specular", "specular"}, {"specular", "glosscol"},
                                      {"roughness", "roughness"}};
 
 constexpr const char *kTriples[][3] = {
@@ -96,9 +96,8 @@ std::string list(const ExrFile &file, const std::vector<Candidate> &candidates)
 
 bool is_whole(const Candidate &c)
 {
-    return !c.part->deep && std::all_of(c.channels.begin(), c.channels.end(), [](const ChannelInfo *channel) {
-        return channel->sampling == Imath::V2i(1, 1);
-    });
+    return !c.part->deep && std::all_of(c.channels.begin(), c.channels.end(),
+                                        [](const ChannelInfo *channel) { return channel->sampling == Imath::V2i(1, 1); });
 }
 
 bool is_known(const Candidate &c, const std::string &role)
@@ -140,7 +139,8 @@ InputChoice resolve_input(const ExrFile &file, const std::string &role, const st
     std::vector<Candidate> found = named(file, wanted, layers);
     narrow_to_picture(found, file, color);
     const auto fail = [&](const std::string &what, const std::vector<Candidate> &candidates) {
-        throw RequestError(fmt::format("{}: --input {}={}: {}: {}", file.path().string(), role, wanted, what, list(file, candidates)));
+        throw RequestError(
+            fmt::format("{}: --input {}={}: {}: {}", file.path().string(), role, wanted, what, list(file, candidates)));
     };
     if (found.empty()) {
         std::vector<std::string> names;

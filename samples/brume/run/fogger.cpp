@@ -104,7 +104,8 @@ void FogOptions::add_to(CLI::App &command)
         ->check(CLI::Range(1e-6, 1e9))
         ->excludes(chosen)
         ->excludes(error);
-    command.add_option("--layers", layers, "Also write these as brume.NAME: layers that an effect fills, see `brume effects`")
+    command
+        .add_option("--layers", layers, "Also write these as brume.NAME: layers that an effect fills, see `brume effects`")
         ->delimiter(',')
         ->type_name("NAME,...")
         ->allow_extra_args(false);
@@ -131,8 +132,8 @@ Fogger::Fogger(const FogOptions &options) : options_(options)
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
     for (const LayerOutput &output : outputs_)
         if (output.of_light && output.light >= scene_info_.light_count)
-            throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected the number of one, from 0", output.name,
-                                           options.scene, scene_info_.light_count));
+            throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected the number of one, from 0",
+                                           output.name, options.scene, scene_info_.light_count));
 }
 
 void Fogger::ask_for_quality()
@@ -261,16 +262,16 @@ brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const
     const std::vector<brume_layer> given = input_layers(roles);
     shot.format.inputs = given.data();
     shot.format.input_count = std::uint32_t(given.size());
-    const std::vector<double> pictures{double(shot.format.width),
-                                  double(shot.format.height),
-                                  double(shot.format.display_x),
-                                  double(shot.format.display_y),
-                                  double(shot.format.display_width),
-                                  double(shot.format.display_height),
-                                  weights[0],
-                                  weights[1],
-                                  weights[2]};
-    const std::pair key{pictures, roles};
+    const std::vector<double> picture{double(shot.format.width),
+                                      double(shot.format.height),
+                                      double(shot.format.display_x),
+                                      double(shot.format.display_y),
+                                      double(shot.format.display_width),
+                                      double(shot.format.display_height),
+                                      weights[0],
+                                      weights[1],
+                                      weights[2]};
+    const std::pair key{picture, roles};
     auto at = plans_.find(key);
     if (at == plans_.end()) {
         check_request(context_.get(), brume_scene_set_luminance_weights(scene_.get(), weights.data()), file.path().string());

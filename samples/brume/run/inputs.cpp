@@ -37,9 +37,10 @@ void check_display(const ExrFile &file, const ColorChoice &color, const OpenInpu
 void add_input_option(CLI::App &command, std::vector<std::string> &inputs)
 {
     command
-        .add_option("--input", inputs,
-                    "Give a layer to what reads the role, see `brume effects`; ROLE=FILE.exr:LAYER from a file of its own; may "
-                    "be repeated")
+        .add_option(
+            "--input", inputs,
+            "Give a layer to what reads the role, see `brume effects`; ROLE=FILE.exr:LAYER from a file of its own; may "
+            "be repeated")
         ->type_name("ROLE=LAYER")
         ->allow_extra_args(false);
 }
@@ -61,8 +62,8 @@ std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<
         if (request.role.empty() || request.layer.empty())
             throw RequestError(fmt::format("--input '{}': expected ROLE=LAYER or ROLE=FILE.exr:LAYER", text));
         if (std::find(roles.begin(), roles.end(), request.role) == roles.end())
-            throw RequestError(fmt::format("--input '{}': nothing reads a layer '{}'; nearest is '{}'; expected some of {}", text,
-                                           request.role, nearest(request.role, roles), fmt::join(roles, ", ")));
+            throw RequestError(fmt::format("--input '{}': nothing reads a layer '{}'; nearest is '{}'; expected some of {}",
+                                           text, request.role, nearest(request.role, roles), fmt::join(roles, ", ")));
         if (std::any_of(requests.begin(), requests.end(), [&](const InputRequest &r) { return r.role == request.role; }))
             throw RequestError(fmt::format("--input '{}': {} is given twice", text, request.role));
         requests.push_back(std::move(request));

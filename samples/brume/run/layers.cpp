@@ -98,8 +98,8 @@ std::vector<LayerOutput> parse_layers(brume_context context, const std::vector<s
     for (const std::string &name : names) {
         const auto layer = find_output(name, all);
         if (!layer)
-            throw RequestError(fmt::format("--layers '{}': no effect fills a layer of that name; {}expected some of {}", name,
-                                           known.empty() ? "" : fmt::format("nearest is '{}'; ", nearest(name, known)),
+            throw RequestError(fmt::format("--layers '{}': no effect fills a layer of that name; {}expected some of {}",
+                                           name, known.empty() ? "" : fmt::format("nearest is '{}'; ", nearest(name, known)),
                                            known.empty() ? "none, as there are no effects" : list));
         if (std::none_of(layers.begin(), layers.end(), [&](const LayerOutput &l) { return l.name == name; }))
             layers.push_back(*layer);

@@ -26,7 +26,8 @@ struct LayerOutput {
     std::uint32_t light = 0;
 };
 
-/// What --layers names, each once; of a layer that there is for each light, its name and the light's number. Throws RequestError.
+/// What --layers names, each once; of a layer that there is for each light, its name and the light's number. Throws
+/// RequestError.
 std::vector<LayerOutput> parse_layers(brume_context context, const std::vector<std::string> &names);
 
 /// As parts of a brume_format: each layer once.
