@@ -42,7 +42,7 @@ template <class Work> double median_of(int repeat, const Work &work)
 
 std::vector<float> optical_depths(brume_context context, const SceneText &scene, const Sample &sample)
 {
-    SettingRun run(context, scene, nullptr, sample, BRUME_OUTPUT_OPTICAL_DEPTH);
+    SettingRun run(context, scene, nullptr, sample, "optical_depth");
     run.execute();
     std::vector<float> tau(sample.depth.size());
     for (std::size_t i = 0; i < tau.size(); ++i)

@@ -37,8 +37,8 @@ template <class Visit> void for_entries(brume_context context, brume_plan plan, 
 }  // namespace
 
 SettingRun::SettingRun(brume_context context, const SceneText &text, const Setting *setting, const Sample &sample,
-                       std::uint32_t output)
-    : context_(context), sample_(sample), effect_(setting ? setting->effect : ""), output_(output)
+                       std::string output)
+    : context_(context), sample_(sample), effect_(setting ? setting->effect : ""), output_(std::move(output))
 {
     const SceneHandle scene = make_scene(context, text);
     // The setting is what is measured, not what the scene's quality would choose.
@@ -50,12 +50,16 @@ SettingRun::SettingRun(brume_context context, const SceneText &text, const Setti
     }
     check_request(context, brume_scene_set_luminance_weights(scene.get(), sample.weights.data()), sample.name);
     brume_format format = sample.format;
-    format.outputs = output;
+    const brume_layer wanted = layer_named(output_.c_str(), nullptr);
+    if (!output_.empty()) {
+        format.outputs = &wanted;
+        format.output_count = 1;
+    }
     brume_plan plan = nullptr;
     check_request(context, brume_plan_create(scene.get(), &format, &plan), "");
     plan_.reset(plan);
     pixels_.resize(sample.color.size());
-    if (output)
+    if (!output_.empty())
         extra_.resize(3 * sample.depth.size());
 }
 
@@ -66,18 +70,16 @@ double SettingRun::execute()
     const brume_image color = host_image(const_cast<float *>(sample_.color.data()), w, h, sample_.channels);
     const brume_image depth = host_image(const_cast<float *>(sample_.depth.data()), w, h, 1);
     const brume_image out = host_image(pixels_.data(), w, h, sample_.channels), other = host_image(extra_.data(), w, h, 3);
-    brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
-    extra.output = output_;
-    extra.image = &other;
+    const brume_layer extra = layer_named(output_.c_str(), &other);
     brume_frame frame = BRUME_FRAME_INIT;
     frame.color = &color;
     frame.depth = &depth;
     frame.output = &out;
     frame.camera = &sample_.camera;
     frame.frame = sample_.frame;
-    if (output_) {
-        frame.extra = &extra;
-        frame.extra_count = 1;
+    if (!output_.empty()) {
+        frame.outputs = &extra;
+        frame.output_count = 1;
     }
     check_request(context_, brume_plan_execute(plan_.get(), &frame), sample_.name);
     double ms = 0;

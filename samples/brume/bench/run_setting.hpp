@@ -11,7 +11,7 @@ class SettingRun {
 public:
     /// Throws RequestError where the setting is refused.
     SettingRun(brume_context context, const SceneText &scene, const Setting *setting, const Sample &sample,
-               std::uint32_t output = 0);
+               std::string output = "");
 
     /// Fogs the picture; milliseconds of the effect's passes and of those that serve all effects.
     double execute();
@@ -27,7 +27,7 @@ private:
     brume_context context_;
     const Sample &sample_;
     std::string effect_;
-    std::uint32_t output_;
+    std::string output_;  ///< layer that is filled, too; empty: none
     PlanHandle plan_;
     std::vector<float> pixels_, extra_;
 };

@@ -13,6 +13,7 @@
 #include "exr/frame.hpp"
 #include "frames/pattern.hpp"
 #include "run/depth_count.hpp"
+#include "run/inputs.hpp"
 #include "support/error.hpp"
 #include "support/text.hpp"
 
@@ -25,6 +26,7 @@ struct InfoOptions {
     std::string input;
     PictureOptions picture;
     bool json = false;
+    std::vector<std::string> inputs;  ///< role=layer
 };
 
 ordered_json window_of(const Imath::Box2i &w)
@@ -100,6 +102,30 @@ void describe_camera(ordered_json &info, const ExrFile &file, const InfoOptions 
         c["notes"] = camera.notes;
 }
 
+void describe_inputs(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice *color,
+                     int frame)
+{
+    const ContextHandle context = create_context("cpu");
+    const std::vector<InputRequest> asked = parse_inputs(context.get(), options.inputs);
+    if (!color && asked.empty())
+        return;
+    if (!color)
+        throw RequestError(
+            fmt::format("--input {}: {} has no colour that it could go with", asked.front().role, file.path().string()));
+    info["inputs"] = ordered_json::object();
+    for (const OpenInput &input : open_inputs(file, *color, frame, asked, {}, {}))
+        info["inputs"][input.choice.role] = description(input);
+    // No scene says here that some effect will want them.
+    for (const std::string &role : known_roles(context.get()))
+        if (!info["inputs"].contains(role))
+            try {
+                if (auto choice = find_known_input(file, role, *color))
+                    info["inputs"][role] = description({std::move(*choice), std::nullopt});
+            } catch (const RequestError &e) {
+                info["inputs"][role] = fmt::format("none: {}", e.what());
+            }
+}
+
 std::string window_text(const ordered_json &w)
 {
     return fmt::format("{} x {} at ({}, {})", w["width"].get<int>(), w["height"].get<int>(), w["x"].get<int>(),
@@ -138,6 +164,9 @@ void print_text(const ordered_json &info)
                    text(depth["part"]), text(depth["chosen"]), text(depth["kind"]), depth["nearest"].get<double>(),
                    depth["farthest"].get<double>(), depth["far_pixels"].get<std::uint64_t>(), depth["far"].get<double>(),
                    depth["nan_pixels"].get<std::uint64_t>());
+    if (info.contains("inputs"))
+        for (const auto &[role, choice] : info["inputs"].items())
+            fmt::print("input    {}: {}\n", printable(role), text(choice));
     const auto &camera = info["camera"];
     if (camera.contains("fov_from"))
         fmt::print("camera   vertical field of view {:.4g} degrees, centre ({:.4g}, {:.4g}), from {}\n",
@@ -181,6 +210,7 @@ int info(const InfoOptions &options)
         info["color"] = {{"none", e.what()}};
     }
     describe_depth(info, file, options, color ? &*color : nullptr);
+    describe_inputs(info, file, options, color ? &*color : nullptr, files.front().frame);
     describe_camera(info, file, options);
     if (options.json)
         fmt::print("{}\n", info.dump(2, ' ', false, ordered_json::error_handler_t::replace));
@@ -198,6 +228,7 @@ void add_info(CLI::App &app, Action &chosen)
     command->add_option("INPUT", options->input, "EXR file, or a pattern such as shot.%04d.exr")->required();
     command->add_flag("--json", options->json, "Print JSON");
     options->picture.add_to(*command);
+    add_input_option(*command, options->inputs);
     command->callback([&chosen, options] { chosen = [options] { return info(*options); }; });
 }
 

@@ -10,6 +10,7 @@
 #include "frames/pattern.hpp"
 #include "run/sequence.hpp"
 #include "support/error.hpp"
+#include "support/text.hpp"
 
 namespace brume::tool {
 namespace {
@@ -35,9 +36,11 @@ int plan(const PlanOptions &options)
     const OpenFrame open = open_frame(first, options.fog.picture, {});
     const ColorManager colors;
     Fogger fogger(options.fog);
-    fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth);
-    const brume_plan plan =
-        fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.header(open.color.part)));
+    fogger.learn_roles(open.file, open.color);
+    const std::vector<OpenInput> inputs = fogger.open_inputs(open.file, open.color, first.frame, {});
+    fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs);
+    const brume_plan plan = fogger.plan_for(open.file, open.color,
+                                            colors.luminance_weights(open.file.header(open.color.part)), roles_of(inputs));
 
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     check_request(fogger.context(), brume_plan_get_info(plan, &info), "plan");
@@ -55,6 +58,9 @@ int plan(const PlanOptions &options)
                            {"operations", e.operations},
                            {"predicted_ms", e.predicted_ms}});
     }
+    ordered_json given = ordered_json::object();
+    for (const OpenInput &input : inputs)
+        given[input.choice.role] = description(input);
     const ordered_json out{
         {"scene", options.fog.scene},
         {"lights", fogger.scene_info().light_count},
@@ -65,6 +71,7 @@ int plan(const PlanOptions &options)
         {"device", device.device},
         {"color", open.color.label()},
         {"depth", open.depth.channel},
+        {"inputs", given},
         {"does_nothing", info.does_nothing != 0},
         {"needs_of_camera", camera_needs(info.camera_needs)},
         {"camera_reason", info.camera_reason},
@@ -80,6 +87,8 @@ int plan(const PlanOptions &options)
     const PartInfo &part = open.file.parts()[open.color.part];
     fmt::print("{} x {} pixels on {} ({})\n", part.width(), part.height(), backend_name(device.backend), device.device);
     fmt::print("colour {}; depth {}\n", open.color.label(), open.depth.channel);
+    for (const OpenInput &input : inputs)
+        fmt::print("input {} from {}\n", input.choice.role, printable(description(input)));
     fmt::print("{} lights; {} Gaussians; {} coefficients of the environment\n", out["lights"].get<int>(),
                out["gaussians"].get<int>(), out["environment"].get<int>());
     for (const auto &e : entries) {

@@ -62,23 +62,26 @@ void to_floats(const Plane &plane, std::size_t count, float *out, std::size_t st
     });
 }
 
-/// Lays depth over the colour's data window: the two parts of a multi-part file may cover different pixels.
-std::vector<float> place(const std::vector<float> &depth, const PartInfo &from, const PartInfo &onto, std::uint64_t &outside)
+/// Lays pixels over the colour's data window: the two parts of a multi-part file may cover different ones.
+std::vector<float> place(const std::vector<float> &pixels, std::size_t channels, const PartInfo &from, const PartInfo &onto,
+                         float elsewhere, std::uint64_t &outside)
 {
-    std::vector<float> placed(std::size_t(onto.width()) * std::size_t(onto.height()),
-                              std::numeric_limits<float>::infinity());
+    const std::size_t count = std::size_t(onto.width()) * std::size_t(onto.height());
+    std::vector<float> placed(count * channels, elsewhere);
     const Imath::Box2i &a = from.data_window;
     const Imath::Box2i &b = onto.data_window;
     const int x0 = std::max(a.min.x, b.min.x), x1 = std::min(a.max.x, b.max.x);
     const int y0 = std::max(a.min.y, b.min.y), y1 = std::min(a.max.y, b.max.y);
     std::uint64_t covered = 0;
     for (int y = y0; y <= y1 && x0 <= x1; ++y) {
-        const float *source = depth.data() + std::size_t(y - a.min.y) * std::size_t(from.width()) + (x0 - a.min.x);
-        std::copy(source, source + (x1 - x0 + 1),
-                  placed.data() + std::size_t(y - b.min.y) * std::size_t(onto.width()) + (x0 - b.min.x));
+        const auto at = [&](const Imath::Box2i &w, const PartInfo &part) {
+            return channels * (std::size_t(y - w.min.y) * std::size_t(part.width()) + std::size_t(x0 - w.min.x));
+        };
+        const float *source = pixels.data() + at(a, from);
+        std::copy(source, source + channels * std::size_t(x1 - x0 + 1), placed.data() + at(b, onto));
         covered += std::uint64_t(x1 - x0 + 1);
     }
-    outside = placed.size() - covered;
+    outside = count - covered;
     return placed;
 }
 
@@ -121,6 +124,26 @@ std::vector<float> read_channel(const ExrFile &file, int part_index, const std::
     return values;
 }
 
+InputLayer read_input(const ExrFile &file, const InputChoice &choice, const PartInfo &onto, const std::vector<Plane> *planes)
+{
+    const PartInfo &part = file.parts()[choice.part];
+    std::vector<Plane> own;
+    if (!planes) {
+        for (const std::string &channel : choice.channels)
+            own.push_back(allocate_plane(*part.find(channel), part));
+        read_planes(file, part, own);
+        planes = &own;
+    }
+    InputLayer input{choice.role, int(choice.channels.size()), {}};
+    const std::size_t stride = choice.channels.size(), count = std::size_t(part.width()) * std::size_t(part.height());
+    input.pixels.resize(count * stride);
+    for (std::size_t c = 0; c < stride; ++c)
+        to_floats(plane_named(*planes, choice.channels[c]), count, input.pixels.data() + c, stride);
+    if (part.data_window != onto.data_window)
+        input.pixels = place(input.pixels, stride, part, onto, choice.role == "transmittance" ? 1.0f : 0.0f, input.outside);
+    return input;
+}
+
 Frame read_frame(ExrFile file, const ColorChoice &color, const DepthSource *depth)
 {
     Frame frame{std::move(file), color, {}, 0, 0, 3, {}, {}, 0};
@@ -150,7 +173,8 @@ Frame read_frame(ExrFile file, const ColorChoice &color, const DepthSource *dept
     }
     const ExrFile &source = same_file ? frame.file : *depth->file;
     const auto values = read_channel(source, depth->choice.part, depth->choice.channel);
-    frame.depth = place(values, source.parts()[depth->choice.part], part, frame.outside_depth_window);
+    frame.depth = place(values, 1, source.parts()[depth->choice.part], part, std::numeric_limits<float>::infinity(),
+                        frame.outside_depth_window);
     return frame;
 }
 

@@ -31,6 +31,45 @@ double detail_of(const ExrFile &file, const ColorChoice &color)
     return std::sqrt(measure(box_blurred(picture, 4), picture).relative_mse);
 }
 
+std::vector<brume_layer> input_layers(const std::vector<std::string> &roles)
+{
+    std::vector<brume_layer> layers;
+    for (const std::string &role : roles)
+        layers.push_back(layer_named(role.c_str(), nullptr));
+    return layers;
+}
+
+/// Inputs as a frame has them. The layers are kept by the caller.
+class GivenLayers {
+public:
+    GivenLayers(const std::vector<InputLayer> &inputs, int width, int height)
+    {
+        images_.reserve(inputs.size());
+        for (const InputLayer &input : inputs) {
+            // Inputs are only read.
+            images_.push_back(host_image(const_cast<float *>(input.pixels.data()), width, height, input.channels));
+            layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
+        }
+    }
+    void give_to(brume_frame &frame) const
+    {
+        frame.inputs = layers_.data();
+        frame.input_count = std::uint32_t(layers_.size());
+    }
+
+private:
+    std::vector<brume_image> images_;
+    std::vector<brume_layer> layers_;
+};
+
+bool reads_layer(brume_context context, const char *effect, const std::string &role)
+{
+    for (const brume_layer_info &layer : layers_of(context, effect))
+        if (layer.flags & BRUME_LAYER_INPUT && role == layer.name)
+            return true;
+    return false;
+}
+
 std::string missing_camera(std::uint32_t missing, const char *reason)
 {
     const char *what = missing == BRUME_CAMERA_POSE            ? "camera pose"
@@ -65,18 +104,23 @@ void FogOptions::add_to(CLI::App &command)
         ->check(CLI::Range(1e-6, 1e9))
         ->excludes(chosen)
         ->excludes(error);
-    command.add_option("--layers", layers, "Also write these as brume.NAME: " + known_layers())
+    command
+        .add_option("--layers", layers, "Also write these as brume.NAME: layers that an effect fills, see `brume effects`")
         ->delimiter(',')
         ->type_name("NAME,...")
         ->allow_extra_args(false);
+    add_input_option(command, inputs);
 }
 
-Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_layers(options.layers))
+Fogger::Fogger(const FogOptions &options) : options_(options)
 {
     const SceneText text = read_scene(options.scene, options.set);
     options.picture.depth_kind();
     options.picture.sky();
     context_ = create_context(options.backend);
+    outputs_ = parse_layers(context_.get(), options.layers);
+    output_layers_ = format_layers(outputs_);
+    inputs_ = parse_inputs(context_.get(), options.inputs);
     load_calibration(context_.get());
     scene_ = make_scene(context_.get(), text);
     const brume_scene scene = scene_.get();
@@ -87,8 +131,8 @@ Fogger::Fogger(const FogOptions &options) : options_(options), outputs_(parse_la
     check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
     for (const LayerOutput &output : outputs_)
-        if (output.flag == BRUME_OUTPUT_LIGHT_AIRLIGHT && output.light >= scene_info_.light_count)
-            throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected light0 to the last of them",
+        if (output.of_light && output.light >= scene_info_.light_count)
+            throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected the number of one, from 0",
                                            output.name, options.scene, scene_info_.light_count));
 }
 
@@ -108,7 +152,8 @@ void Fogger::ask_for_quality()
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth)
+void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
+                    const std::vector<OpenInput> &inputs)
 {
     brume_quality quality = BRUME_QUALITY_INIT;
     check_request(context_.get(), brume_scene_get_quality(scene_.get(), &quality), "quality");
@@ -118,7 +163,13 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     const PartInfo &part = depth_file.parts()[depth.part];
     Shot shot = shot_of(file, color);
     shot.format = format_of(part.data_window, depth_file.header(depth.part).displayWindow(), options_.picture);
-    shot.format.outputs = BRUME_OUTPUT_TRANSMITTANCE;
+    brume_layer wanted = layer_named("transmittance", nullptr);
+    shot.format.outputs = &wanted;
+    shot.format.output_count = 1;
+    const std::vector<std::string> roles = roles_of(inputs);
+    const std::vector<brume_layer> given = input_layers(roles);
+    shot.format.inputs = given.data();
+    shot.format.input_count = std::uint32_t(given.size());
     brume_quality draft = BRUME_QUALITY_INIT;
     draft.preset = BRUME_PRESET_DRAFT;
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &draft), "quality");
@@ -136,15 +187,18 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     const int width = part.width(), height = part.height();
     const brume_image c = host_image(color_rgb.data(), width, height, 3), d = host_image(distances.data(), width, height, 1),
                       t = host_image(transmittance.data(), width, height, 3);
-    brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
-    wanted.output = BRUME_OUTPUT_TRANSMITTANCE;
     wanted.image = &t;
     brume_frame call = BRUME_FRAME_INIT;
     call.color = &c;
     call.depth = &d;
     call.output = &c;
-    call.extra = &wanted;
-    call.extra_count = 1;
+    call.outputs = &wanted;
+    call.output_count = 1;
+    std::vector<InputLayer> layers;
+    for (const OpenInput &input : inputs)
+        layers.push_back(read_input(input.file ? *input.file : file, input.choice, part));
+    const GivenLayers images(layers, width, height);
+    images.give_to(call);
     call.camera = &shot.camera;
     check_request(context_.get(), brume_plan_execute(made, &call), file.path().string());
     double sum = 0;
@@ -161,23 +215,63 @@ Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
 {
     Shot shot =
         tool::shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
-    for (const LayerOutput &output : outputs_)
-        shot.format.outputs |= output.flag;
+    shot.format.outputs = output_layers_.data();
+    shot.format.output_count = std::uint32_t(output_layers_.size());
     return shot;
 }
 
-brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights)
+void Fogger::learn_roles(const ExrFile &file, const ColorChoice &color)
 {
-    const Shot shot = shot_of(file, color);
-    const std::vector<double> key{double(shot.format.width),
-                                  double(shot.format.height),
-                                  double(shot.format.display_x),
-                                  double(shot.format.display_y),
-                                  double(shot.format.display_width),
-                                  double(shot.format.display_height),
-                                  weights[0],
-                                  weights[1],
-                                  weights[2]};
+    const std::vector<std::string> roles = tool::known_roles(context_.get());
+    if (roles.empty())
+        return;
+    // Which effects run is the library's to say, so it is asked with all of the roles.
+    Shot shot = shot_of(file, color);
+    const std::vector<brume_layer> given = input_layers(roles);
+    shot.format.inputs = given.data();
+    shot.format.input_count = std::uint32_t(given.size());
+    brume_plan made = nullptr;
+    // What does not work here fails where the scene is planned as it is.
+    if (brume_plan_create(scene_.get(), &shot.format, &made) != BRUME_OK)
+        return;
+    const PlanHandle plan(made);
+    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    check_request(context_.get(), brume_plan_get_info(made, &info), "plan");
+    known_roles_.clear();
+    for (const std::string &role : roles)
+        for (std::uint32_t i = 0; i < info.entry_count; ++i) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            check_request(context_.get(), brume_plan_get_entry(made, i, &entry), "plan");
+            if (entry.runs && reads_layer(context_.get(), entry.effect, role)) {
+                known_roles_.push_back(role);
+                break;
+            }
+        }
+}
+
+std::vector<OpenInput> Fogger::open_inputs(const ExrFile &file, const ColorChoice &color, int number,
+                                           const ReadLimits &limits) const
+{
+    return tool::open_inputs(file, color, number, inputs_, known_roles_, limits);
+}
+
+brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+                            const std::vector<std::string> &roles)
+{
+    Shot shot = shot_of(file, color);
+    const std::vector<brume_layer> given = input_layers(roles);
+    shot.format.inputs = given.data();
+    shot.format.input_count = std::uint32_t(given.size());
+    const std::vector<double> picture{double(shot.format.width),
+                                      double(shot.format.height),
+                                      double(shot.format.display_x),
+                                      double(shot.format.display_y),
+                                      double(shot.format.display_width),
+                                      double(shot.format.display_height),
+                                      weights[0],
+                                      weights[1],
+                                      weights[2]};
+    const std::pair key{picture, roles};
     auto at = plans_.find(key);
     if (at == plans_.end()) {
         check_request(context_.get(), brume_scene_set_luminance_weights(scene_.get(), weights.data()), file.path().string());
@@ -196,13 +290,16 @@ brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const
 
 FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers)
 try {
-    const brume_plan plan = plan_for(frame.file, frame.color, weights);
+    std::vector<std::string> roles;
+    for (const InputLayer &input : frame.inputs)
+        roles.push_back(input.role);
+    const brume_plan plan = plan_for(frame.file, frame.color, weights, roles);
     const Shot shot = shot_of(frame.file, frame.color);
     const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);
     const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
 
     std::vector<brume_image> images;
-    std::vector<brume_extra_output> extra;
+    std::vector<brume_layer> wanted;
     images.reserve(outputs_.size());
     layers.clear();
     layers.reserve(outputs_.size());
@@ -210,19 +307,18 @@ try {
         layers.push_back({output.name, output.channels, output.type, {}});
         layers.back().pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * std::size_t(output.channels));
         images.push_back(host_image(layers.back().pixels.data(), frame.width, frame.height, output.channels));
-        brume_extra_output wanted = BRUME_EXTRA_OUTPUT_INIT;
-        wanted.output = output.flag;
-        wanted.image = &images.back();
-        wanted.light = output.light;
-        extra.push_back(wanted);
+        wanted.push_back(layer_named(output.layer.c_str(), &images.back()));
+        wanted.back().light = output.light;
     }
 
     brume_frame call = BRUME_FRAME_INIT;
     call.color = &color;
     call.depth = &depth;
     call.output = &color;
-    call.extra = extra.empty() ? nullptr : extra.data();
-    call.extra_count = std::uint32_t(extra.size());
+    call.outputs = wanted.data();
+    call.output_count = std::uint32_t(wanted.size());
+    const GivenLayers inputs(frame.inputs, frame.width, frame.height);
+    inputs.give_to(call);
     call.camera = &shot.camera;
     call.frame = number;
     check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());

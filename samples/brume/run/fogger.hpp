@@ -9,6 +9,7 @@
 #include "exr/resolve.hpp"
 #include "exr/write.hpp"
 #include "metrics/metrics.hpp"
+#include "run/inputs.hpp"
 #include "run/layers.hpp"
 #include "run/sdk.hpp"
 #include "run/shot.hpp"
@@ -21,10 +22,11 @@ struct FogOptions {
     double max_error = 0, budget_ms = 0;
     std::vector<std::string> set;     ///< effect.param=value
     std::vector<std::string> layers;  ///< extra outputs by name
+    std::vector<std::string> inputs;  ///< role=layer
     PictureOptions picture;
 
     void add_to(CLI::App &command);
-    void add_scene_to(CLI::App &command);  ///< all but `layers`
+    void add_scene_to(CLI::App &command);  ///< all but `layers` and `inputs`
 };
 
 struct PassTime {
@@ -44,11 +46,20 @@ public:
     explicit Fogger(const FogOptions &options);
 
     /// Learns from a frame what predictions of quality depend on, where quality is asked for and the scene does not say.
-    void expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth);
+    void expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
+                const std::vector<OpenInput> &inputs);
+
+    /// Finds the roles that effects of the scene read and that layers of known names are taken for.
+    void learn_roles(const ExrFile &file, const ColorChoice &color);
+
+    /// The layers that the library is to be given with such a picture. May be called from any thread.
+    std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int number,
+                                       const ReadLimits &limits) const;
 
     /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
     /// that nobody gave.
-    brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights);
+    brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+                        const std::vector<std::string> &roles);
 
     /// In place. Throws FrameError.
     FogReport fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers);
@@ -69,7 +80,10 @@ private:
     std::uint32_t scene_camera_ = 0;
     brume_scene_info scene_info_ = BRUME_SCENE_INFO_INIT;
     std::vector<LayerOutput> outputs_;
-    std::map<std::vector<double>, PlanHandle> plans_;
+    std::vector<brume_layer> output_layers_;  ///< of `outputs_`, as formats have them
+    std::vector<InputRequest> inputs_;
+    std::vector<std::string> known_roles_;
+    std::map<std::pair<std::vector<double>, std::vector<std::string>>, PlanHandle> plans_;
 };
 
 }  // namespace brume::tool

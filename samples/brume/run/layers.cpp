@@ -4,56 +4,116 @@
 #include <charconv>
 #include <optional>
 
-#include <brume/brume.h>
 #include <fmt/format.h>
 
 #include "support/error.hpp"
+#include "support/nearest.hpp"
 
 namespace brume::tool {
 namespace {
 
-// Optical depth runs to 1e30 for sky in an endless medium, far past half; errors may be smaller than halves are.
-const LayerOutput kLayers[] = {
-    {"transmittance", BRUME_OUTPUT_TRANSMITTANCE}, {"optical_depth", BRUME_OUTPUT_OPTICAL_DEPTH, 3, Imf::FLOAT},
-    {"scattered", BRUME_OUTPUT_SCATTERED},         {"blur_radius", BRUME_OUTPUT_BLUR_RADIUS, 1},
-    {"airlight", BRUME_OUTPUT_AIRLIGHT},           {"airlight_error", BRUME_OUTPUT_AIRLIGHT_ERROR, 3, Imf::FLOAT}};
+struct KnownOutput {
+    std::string_view layer, name;
+    Imf::PixelType type;
+};
 
-constexpr std::string_view kLight = "light";
+// Optical depth runs to 1e30 for sky in an endless medium, far past half; errors may be smaller than halves are. What
+// strangers' layers hold is not known, so they are floats too.
+constexpr KnownOutput kKnownOutputs[] = {{"transmittance", "transmittance", Imf::HALF},
+                                         {"scattered", "scattered", Imf::HALF},
+                                         {"blur_radius", "blur_radius", Imf::HALF},
+                                         {"airlight", "airlight", Imf::HALF},
+                                         {"light_airlight", "light", Imf::HALF}};
 
-std::optional<LayerOutput> find_layer(const std::string &name)
+LayerOutput output_of(const brume_layer_info &info)
 {
-    for (const LayerOutput &layer : kLayers)
-        if (layer.name == name)
-            return layer;
-    LayerOutput light{name, BRUME_OUTPUT_LIGHT_AIRLIGHT};
-    const char *const end = name.data() + name.size();
-    if (name.starts_with(kLight) && std::from_chars(name.data() + kLight.size(), end, light.light).ptr == end &&
-        name == fmt::format("{}{}", kLight, light.light))
-        return light;
+    LayerOutput output{info.name, info.name, int(info.channels)};
+    output.of_light = info.flags & BRUME_LAYER_OF_LIGHT;
+    for (const KnownOutput &known : kKnownOutputs)
+        if (known.layer == output.layer) {
+            output.name = known.name;
+            output.type = known.type;
+        }
+    return output;
+}
+
+std::optional<LayerOutput> find_output(const std::string &name, const std::vector<LayerOutput> &all)
+{
+    for (LayerOutput output : all) {
+        if (!output.of_light && output.name == name)
+            return output;
+        const char *const end = name.data() + name.size();
+        if (output.of_light && name.starts_with(output.name) &&
+            std::from_chars(name.data() + output.name.size(), end, output.light).ptr == end &&
+            name == fmt::format("{}{}", output.name, output.light)) {
+            output.name = name;
+            return output;
+        }
+    }
     return std::nullopt;
 }
 
 }  // namespace
 
-std::vector<LayerOutput> parse_layers(const std::vector<std::string> &names)
+std::vector<brume_layer_info> layers_of(brume_context context, const char *effect)
 {
-    std::vector<LayerOutput> layers;
+    std::vector<brume_layer_info> layers(brume_layer_count(context, effect), brume_layer_info BRUME_LAYER_INFO_INIT);
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        check_request(context, brume_layer_get_info(context, effect, std::uint32_t(i), &layers[i]), effect ? effect : "");
+    return layers;
+}
+
+std::vector<brume_layer_info> all_layers(brume_context context, std::uint32_t direction)
+{
+    std::vector<brume_layer_info> all;
+    const auto add = [&](const char *effect) {
+        for (const brume_layer_info &layer : layers_of(context, effect))
+            if (layer.flags & direction && std::none_of(all.begin(), all.end(), [&](const brume_layer_info &other) {
+                    return std::string_view(other.name) == layer.name;
+                }))
+                all.push_back(layer);
+    };
+    add(nullptr);
+    for (std::uint32_t i = 0; i < brume_effect_count(context); ++i) {
+        brume_effect_info effect = BRUME_EFFECT_INFO_INIT;
+        check_request(context, brume_effect_get_info(context, i, &effect), "");
+        if (!effect.refusal)
+            add(effect.name);
+    }
+    return all;
+}
+
+std::vector<LayerOutput> parse_layers(brume_context context, const std::vector<std::string> &names)
+{
+    std::vector<LayerOutput> all, layers;
+    std::vector<std::string> known;
+    std::string list;
+    for (const brume_layer_info &info : all_layers(context, BRUME_LAYER_OUTPUT)) {
+        all.push_back(output_of(info));
+        known.push_back(all.back().name + (all.back().of_light ? "0" : ""));
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", known.back());
+        if (all.back().of_light)
+            list += fmt::format(", {}1, ...", all.back().name);
+    }
     for (const std::string &name : names) {
-        const auto layer = find_layer(name);
+        const auto layer = find_output(name, all);
         if (!layer)
-            throw RequestError(fmt::format("--layers '{}': expected some of {}", name, known_layers()));
+            throw RequestError(fmt::format("--layers '{}': no effect fills a layer of that name; {}expected some of {}",
+                                           name, known.empty() ? "" : fmt::format("nearest is '{}'; ", nearest(name, known)),
+                                           known.empty() ? "none, as there are no effects" : list));
         if (std::none_of(layers.begin(), layers.end(), [&](const LayerOutput &l) { return l.name == name; }))
             layers.push_back(*layer);
     }
     return layers;
 }
 
-std::string known_layers()
+std::vector<brume_layer> format_layers(const std::vector<LayerOutput> &outputs)
 {
-    std::string known;
-    for (const LayerOutput &layer : kLayers)
-        known += layer.name + ", ";
-    return known + "light0, light1, ...";
+    std::vector<brume_layer> layers;
+    for (const LayerOutput &output : outputs)
+        if (std::none_of(layers.begin(), layers.end(), [&](const brume_layer &l) { return l.name == output.layer; }))
+            layers.push_back(layer_named(output.layer.c_str(), nullptr));
+    return layers;
 }
 
 }  // namespace brume::tool

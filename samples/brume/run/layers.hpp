@@ -6,21 +6,31 @@
 
 #include <ImfPixelType.h>
 
+#include "run/sdk.hpp"
+
 namespace brume::tool {
 
-/// An extra output that the command line asked for.
+/// The layers of one effect's table; `effect` null: those that the library reads itself.
+std::vector<brume_layer_info> layers_of(brume_context context, const char *effect);
+
+/// What all effects that are loaded and the library itself have in `direction` (BRUME_LAYER_INPUT or _OUTPUT), by name.
+std::vector<brume_layer_info> all_layers(brume_context context, std::uint32_t direction);
+
+/// A layer that the command line asked for.
 struct LayerOutput {
-    std::string name;
-    std::uint32_t flag = 0;  ///< BRUME_OUTPUT_...
+    std::string name;   ///< as the file has it
+    std::string layer;  ///< as the library has it
     int channels = 3;
-    Imf::PixelType type = Imf::HALF;
-    std::uint32_t light = 0;  ///< of BRUME_OUTPUT_LIGHT_AIRLIGHT
+    Imf::PixelType type = Imf::FLOAT;
+    bool of_light = false;
+    std::uint32_t light = 0;
 };
 
-/// What --layers names, each once; "light3" is the airlight of the scene's light 3. Throws RequestError.
-std::vector<LayerOutput> parse_layers(const std::vector<std::string> &names);
+/// What --layers names, each once; of a layer that there is for each light, its name and the light's number. Throws
+/// RequestError.
+std::vector<LayerOutput> parse_layers(brume_context context, const std::vector<std::string> &names);
 
-/// What --help and errors say there is.
-std::string known_layers();
+/// As parts of a brume_format: each layer once.
+std::vector<brume_layer> format_layers(const std::vector<LayerOutput> &outputs);
 
 }  // namespace brume::tool

@@ -59,6 +59,14 @@ brume_image host_image(void *data, int width, int height, int channels)
     return image;
 }
 
+brume_layer layer_named(const char *name, const brume_image *image)
+{
+    brume_layer layer = BRUME_LAYER_INIT;
+    layer.name = name;
+    layer.image = image;
+    return layer;
+}
+
 const char *backend_name(std::uint32_t backend)
 {
     return backend == BRUME_BACKEND_GL ? "gl" : "cpu";

@@ -31,6 +31,9 @@ void check_request(brume_context context, brume_status status, const std::string
 
 brume_image host_image(void *data, int width, int height, int channels);
 
+/// `name` and `image` are kept as they are given.
+brume_layer layer_named(const char *name, const brume_image *image);
+
 const char *backend_name(std::uint32_t backend);
 
 }  // namespace brume::tool

@@ -98,18 +98,22 @@ private:
         for (const std::size_t i : to_do_) {
             try {
                 const OpenFrame open = open_frame(run_.frames[i].files, options_.fog.picture, limits_);
-                fogger_.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth);
+                fogger_.learn_roles(open.file, open.color);
+                const std::vector<OpenInput> inputs =
+                    fogger_.open_inputs(open.file, open.color, run_.frames[i].files.frame, limits_);
+                fogger_.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs);
                 const brume_plan plan =
-                    fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)));
+                    fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)),
+                                     roles_of(inputs));
                 // Once as read, once more as it is written, and the added layers as floats.
                 bytes = 2 * frame_bytes(open.file, open.color);
                 const PartInfo &part = open.file.parts()[open.color.part];
                 const std::uint64_t pixels = std::uint64_t(part.width()) * std::uint64_t(part.height());
-                bytes += pixels * 12 * options_.fog.layers.size();
+                bytes += pixels * 12 * (options_.fog.layers.size() + inputs.size());
                 // One frame is fogged at a time: the plan's images, and colour, depth and output as the SDK holds them.
                 brume_plan_info info = BRUME_PLAN_INFO_INIT;
                 check_request(fogger_.context(), brume_plan_get_info(plan, &info), "");
-                fogging = info.image_bytes + pixels * 36;
+                fogging = info.image_bytes + pixels * (36 + 16 * inputs.size());
                 break;
             } catch (const FrameError &) {
             }
@@ -201,8 +205,19 @@ private:
             job.stats.warnings.push_back(
                 fmt::format("depth '{}' is stored with a lossy compression: edges may show it", open.depth.channel));
         job.weights = colors_.luminance_weights(open.file.header(open.color.part));
+        const std::vector<OpenInput> inputs = fogger_.open_inputs(open.file, open.color, job.stats.files.frame, limits_);
         job.frame.emplace(read_frame(std::move(open.file), open.color, &depth));
         Frame &frame = *job.frame;
+        for (const OpenInput &input : inputs) {
+            const bool with_color = !input.file && input.choice.part == frame.color.part;
+            frame.inputs.push_back(read_input(input.file ? *input.file : frame.file, input.choice, frame.part(),
+                                              with_color ? &frame.planes : nullptr));
+            job.stats.inputs.emplace_back(input.choice.role, description(input));
+            if (frame.inputs.back().outside > 0)
+                job.stats.warnings.push_back(fmt::format("{} pixels are outside the data window of the input {} and count as {}",
+                                                         frame.inputs.back().outside, input.choice.role,
+                                                         input.choice.role == "transmittance" ? 1 : 0));
+        }
         job.stats.pixels = std::uint64_t(frame.width) * std::uint64_t(frame.height);
         job.stats.not_finite_pixels = count_not_finite(frame);
         job.stats.outside_depth_window = frame.outside_depth_window;

@@ -47,6 +47,8 @@ ordered_json frame_of(const FrameStats &f)
     if (f.outcome != Outcome::kDone)
         return out;
     out["resolved"] = {{"color", f.color}, {"depth", f.depth}, {"camera", f.fog.camera}};
+    for (const auto &[role, choice] : f.inputs)
+        out["resolved"]["inputs"][role] = choice;
     out["ms"] = {{"read", f.read_ms}, {"fog", f.fog_ms}, {"write", f.write_ms}};
     out["passes"] = passes_of(f.fog.passes);
     out["pixels"] = {{"all", f.pixels},

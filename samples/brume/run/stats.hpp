@@ -18,6 +18,7 @@ struct FrameStats {
     Outcome outcome = Outcome::kNotTried;
     std::string error;
     std::string color, depth;  ///< what was resolved, and why
+    std::vector<std::pair<std::string, std::string>> inputs;  ///< role, and what was resolved
     FogReport fog;
     DepthCount depth_count;
     std::uint64_t pixels = 0, not_finite_pixels = 0, outside_depth_window = 0, clamped_values = 0;

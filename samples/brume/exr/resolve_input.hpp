@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exr/resolve.hpp"
+
+namespace brume::tool {
+
+/// A layer of a file that is given to the library under the name of a role: one channel or three.
+struct InputChoice {
+    std::string role;
+    int part = 0;
+    std::vector<std::string> channels;
+    std::string reason;
+
+    std::string label() const;
+};
+
+/// The layer, channel or part that --input names. `color` is where it must share the view; null where it comes from a file
+/// of its own. Throws RequestError that lists the layers where none or several fit.
+InputChoice resolve_input(const ExrFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color);
+
+/// Whether some layers are taken for this role without being asked for.
+bool has_known_names(const std::string &role);
+
+/// The layer that is named as renderers name this role; nothing where there is none. Throws RequestError where there are
+/// several.
+std::optional<InputChoice> find_known_input(const ExrFile &file, const std::string &role, const ColorChoice &color);
+
+}  // namespace brume::tool

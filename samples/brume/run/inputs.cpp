@@ -1,0 +1,123 @@
+#include "run/inputs.hpp"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "exr/narrow.hpp"
+#include "frames/pattern.hpp"
+#include "run/layers.hpp"
+#include "support/error.hpp"
+#include "support/nearest.hpp"
+
+namespace brume::tool {
+namespace {
+
+constexpr std::string_view kExrThenLayer = ".exr:";
+
+/// Where its pixels would not be the picture's.
+void check_display(const ExrFile &file, const ColorChoice &color, const OpenInput &input)
+{
+    if (!input.file)
+        return;
+    const Imath::Box2i &display = file.header(color.part).displayWindow();
+    const Imath::Box2i &other = input.file->header(input.choice.part).displayWindow();
+    const auto text = [](const Imath::Box2i &w) {
+        return fmt::format("{} x {} at ({}, {})", w.max.x - w.min.x + 1, w.max.y - w.min.y + 1, w.min.x, w.min.y);
+    };
+    if (other != display)
+        throw RequestError(fmt::format("{}: --input {}: '{}' has the display window {}; expected {}, as {} has",
+                                       input.file->path().string(), input.choice.role, input.choice.label(), text(other),
+                                       text(display), file.path().string()));
+}
+
+}  // namespace
+
+void add_input_option(CLI::App &command, std::vector<std::string> &inputs)
+{
+    command
+        .add_option(
+            "--input", inputs,
+            "Give a layer to what reads the role, see `brume effects`; ROLE=FILE.exr:LAYER from a file of its own; may "
+            "be repeated")
+        ->type_name("ROLE=LAYER")
+        ->allow_extra_args(false);
+}
+
+std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<std::string> &texts)
+{
+    std::vector<std::string> roles;
+    for (const brume_layer_info &layer : all_layers(context, BRUME_LAYER_INPUT))
+        if (!(layer.flags & BRUME_LAYER_OF_LIGHT))
+            roles.push_back(layer.name);
+    std::vector<InputRequest> requests;
+    for (const std::string &text : texts) {
+        const auto equals = text.find('=');
+        InputRequest request{text.substr(0, equals), "", equals == std::string::npos ? "" : text.substr(equals + 1)};
+        if (const auto colon = lower(request.layer).find(kExrThenLayer); colon != std::string::npos) {
+            request.file = request.layer.substr(0, colon + kExrThenLayer.size() - 1);
+            request.layer = request.layer.substr(colon + kExrThenLayer.size());
+        }
+        if (request.role.empty() || request.layer.empty())
+            throw RequestError(fmt::format("--input '{}': expected ROLE=LAYER or ROLE=FILE.exr:LAYER", text));
+        if (std::find(roles.begin(), roles.end(), request.role) == roles.end())
+            throw RequestError(fmt::format("--input '{}': nothing reads a layer '{}'; nearest is '{}'; expected some of {}",
+                                           text, request.role, nearest(request.role, roles), fmt::join(roles, ", ")));
+        if (std::any_of(requests.begin(), requests.end(), [&](const InputRequest &r) { return r.role == request.role; }))
+            throw RequestError(fmt::format("--input '{}': {} is given twice", text, request.role));
+        requests.push_back(std::move(request));
+    }
+    return requests;
+}
+
+std::vector<std::string> known_roles(brume_context context)
+{
+    std::vector<std::string> roles;
+    for (const brume_layer_info &layer : all_layers(context, BRUME_LAYER_INPUT))
+        if (!(layer.flags & BRUME_LAYER_OF_LIGHT) && has_known_names(layer.name))
+            roles.push_back(layer.name);
+    return roles;
+}
+
+std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int frame,
+                                   const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
+                                   const ReadLimits &limits)
+{
+    std::vector<OpenInput> inputs;
+    for (const InputRequest &request : asked) {
+        if (request.file.empty()) {
+            inputs.push_back({resolve_input(file, request.role, request.layer, &color), std::nullopt});
+            continue;
+        }
+        const FilePattern pattern(request.file);
+        if (std::error_code error; !pattern.is_sequence() && !std::filesystem::exists(request.file, error))
+            throw RequestError(
+                fmt::format("--input {}={}: {}", request.role, request.file, error ? error.message() : "no such file"));
+        ExrFile own(pattern.at(frame), limits);
+        InputChoice choice = resolve_input(own, request.role, request.layer, nullptr);
+        inputs.push_back({std::move(choice), std::move(own)});
+        check_display(file, color, inputs.back());
+    }
+    for (const std::string &role : known)
+        if (std::none_of(asked.begin(), asked.end(), [&](const InputRequest &r) { return r.role == role; }))
+            if (auto choice = find_known_input(file, role, color))
+                inputs.push_back({std::move(*choice), std::nullopt});
+    return inputs;
+}
+
+std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs)
+{
+    std::vector<std::string> roles;
+    for (const OpenInput &input : inputs)
+        roles.push_back(input.choice.role);
+    return roles;
+}
+
+std::string description(const OpenInput &input)
+{
+    return fmt::format("{}{}: {}", input.file ? input.file->path().string() + ":" : "", input.choice.label(),
+                       input.choice.reason);
+}
+
+}  // namespace brume::tool

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exr/file.hpp"
+#include "exr/resolve_input.hpp"
+#include "run/sdk.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace brume::tool {
+
+/// What --input says: ROLE=LAYER, or ROLE=FILE.exr:LAYER.
+struct InputRequest {
+    std::string role, file, layer;
+};
+
+void add_input_option(CLI::App &command, std::vector<std::string> &inputs);
+
+/// A role is an input layer that some effect or the library reads. Throws RequestError.
+std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<std::string> &texts);
+
+/// Roles that some effect which is loaded reads, and that layers are taken for without being asked for.
+std::vector<std::string> known_roles(brume_context context);
+
+/// A layer to be given to the library, and the file it is in where that is not the picture's.
+struct OpenInput {
+    InputChoice choice;
+    std::optional<ExrFile> file;
+};
+
+/// What was asked for, and of `known` roles what the picture's file has. Throws FrameError for files that cannot be read,
+/// RequestError where layers cannot be resolved.
+std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int frame,
+                                   const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
+                                   const ReadLimits &limits);
+
+std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs);
+
+/// "FILE:CHANNELS: reason" of one of them.
+std::string description(const OpenInput &input);
+
+}  // namespace brume::tool
