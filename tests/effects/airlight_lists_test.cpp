@@ -30,7 +30,7 @@ void hold_optical_depth(brume_context context, const Json &scene, int width, int
                         f.display_width = window.width;
                         f.display_height = window.height;
                     },
-                    BRUME_OUTPUT_OPTICAL_DEPTH};
+                    {"optical_depth"}};
     options.origin = origin;
     const bool up = origin == BRUME_ORIGIN_BOTTOM_LEFT;
     const Result r = run(context, scene.dump(), up ? flipped(frame.color) : frame.color,
@@ -101,14 +101,14 @@ TEST_P(ListsOn, FollowTheCameraAndTheKeys)
     spot["direction"] = {-1, {{"keys", {{3, -0.6}, {5, 0.6}}}}, 0.2};
     const Json scene = lit_scene(medium, Json::array({lamp, sun, spot}));
     const Frame frame = lit_frame(20, 15);
-    const Plan plan(context(), scene.dump(), 20, 15, Options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR});
+    const Plan plan(context(), scene.dump(), 20, 15, Options{{}, {"airlight_error"}});
     const Json poses[] = {pose({0, 0, 0}), pose({0, 0, 0}, 0.3, 0.1), pose({2, -1, -3}, 0.3, 0.1), pose({0, 0, 0}),
                           pose({0, 0, 0}, -2)};
     std::vector<float> before;
     for (double number : {0.0, 0.0, 3.0, 4.0, 5.0, 6.0, 0.0, 9.0})
         for (const Json &p : poses) {
             const brume_camera c = camera(p, 50);
-            const Options options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR, number, 0, &c};
+            const Options options{{}, {"airlight_error"}, number, 0, &c};
             const Picture got = plan.execute(frame.color, frame.depth, options).output,
                           expected = run(context(), scene.dump(), frame.color, frame.depth, options).output;
             const Worst worst = compare(got, expected, 1e-3);
@@ -135,7 +135,7 @@ TEST_P(ListsOn, ManyGaussians)
             g.amplitude = 1;
         }
         const Plan plan(context(), scene.dump(), 12, 8,
-                        Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR}, [&](brume_scene changed) {
+                        Options{{}, {"airlight", "airlight_error"}}, [&](brume_scene changed) {
                             brume_density_term term = BRUME_DENSITY_TERM_INIT;
                             term.value = 0.1;
                             brume_medium medium = BRUME_MEDIUM_INIT;
@@ -147,7 +147,7 @@ TEST_P(ListsOn, ManyGaussians)
                             Context::check(brume_scene_set_medium(changed, &medium), context());
                         });
         const Result r =
-            plan.execute(frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
+            plan.execute(frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}});
         for (float v : r.airlight.data)
             ASSERT_TRUE(std::isfinite(v) && v > 0) << count;
         for (float v : r.output.data)
@@ -165,7 +165,7 @@ TEST_P(ListsOn, ACropIsTheSamePicture)
         std::copy_n(frame.depth.at(x0, y0 + y), w, part.depth.at(0, y));
     }
     const Json scene = lit_scenes()[1].scene;
-    Options options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR};
+    Options options{{}, {"airlight_error"}};
     const Picture whole = run(context(), scene.dump(), frame.color, frame.depth, options).output;
     Picture expected(w, h, 4);
     for (int y = 0; y < h; ++y)
@@ -203,7 +203,9 @@ public:
             light_directions_.push_back(glm::normalize(somewhere(1)));
             lights_.push_back(l);
         }
-        scene_.medium.scattering[0] = scene_.medium.scattering[1] = scene_.medium.scattering[2] = 1;
+        medium_.scattering[0] = medium_.scattering[1] = medium_.scattering[2] = 1;
+        scene_.medium = &medium_;
+        scene_.camera = &camera_;
         move({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     }
     World(const World &) = delete;
@@ -215,7 +217,7 @@ public:
     {
         const glm::dvec3 axes[3] = {glm::normalize(right), glm::normalize(glm::cross(glm::cross(right, up), right)),
                                     glm::normalize(glm::cross(right, up))};
-        float(*const to[3])[3] = {&scene_.camera.right, &scene_.camera.up, &scene_.camera.back};
+        float(*const to[3])[3] = {&camera_.right, &camera_.up, &camera_.back};
         for (int a = 0; a < 3; ++a)
             for (int i = 0; i < 3; ++i)
                 (*to[a])[i] = float(axes[a][i]);
@@ -246,6 +248,8 @@ private:
     std::vector<glm::dvec3> centers_, light_positions_, light_directions_;
     std::vector<brume_plugin_gaussian> gaussians_;
     std::vector<brume_plugin_light> lights_;
+    brume_plugin_medium medium_{};
+    brume_plugin_camera camera_{};
     brume_plugin_scene scene_{};
 };
 

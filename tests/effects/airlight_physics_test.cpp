@@ -14,7 +14,7 @@ protected:
     Result lit(const Json &scene, const Picture &depth)
     {
         const Picture black(depth.width, depth.height, 4);
-        return run(context(), scene.dump(), black, depth, Options{{}, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_AIRLIGHT});
+        return run(context(), scene.dump(), black, depth, Options{{}, {"transmittance", "airlight"}});
     }
 };
 
@@ -95,7 +95,7 @@ TEST(AirlightReference, IsTheExhaustiveQuadrature)
         if (scene.contains("environment"))
             continue;
         const Result r = run(cpu(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth,
-                             Options{{}, BRUME_OUTPUT_AIRLIGHT});
+                             Options{{}, {"airlight"}});
         EXPECT_LT(Sampled(scene, frame, 20).errors(r.airlight).back(), 1e-4) << name;
         if (gl()) {
             EXPECT_THROW(run(*gl(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth), Failure);
@@ -113,7 +113,7 @@ TEST(AirlightErrorEstimate, BoundsTheError)
         if (scene.contains("environment"))
             continue;
         const Result r = run(cpu(), scene.dump(), frame.color, frame.depth,
-                             Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
+                             Options{{}, {"airlight", "airlight_error"}});
         const Sampled sampled(scene, frame, 120);
         for (const auto &p : sampled.pixels)
             for (int c = 0; c < 3; ++c) {

@@ -22,7 +22,7 @@ std::string noisy(const std::string &noise, double shift = 0, double yaw = 0)
 fog::Picture depths(brume_context context, const std::string &scene, double frame = 0)
 {
     const fog::Picture color(33, 33, 4), depth(33, 33, 1, 20.0f);
-    return fog::run(context, scene, color, depth, {nullptr, BRUME_OUTPUT_OPTICAL_DEPTH, frame}).optical_depth;
+    return fog::run(context, scene, color, depth, {nullptr, {"optical_depth"}, frame}).optical_depth;
 }
 
 double largest_difference(const fog::Picture &a, const fog::Picture &b)

@@ -183,7 +183,7 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
                       truth = read_exr(file + ".exr", {"R", "G", "B"});
         for (const char *where : backend_names) {
             const Picture got =
-                run(backend(where), scene.dump(), color, depth, Options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR}).output;
+                run(backend(where), scene.dump(), color, depth, Options{{}, {"airlight_error"}}).output;
             const double error = rel_mse(got, truth), ratio = energy(got, truth);
             printf("%s %s airlight on %s: relMSE %.4f, energy %.3f, without fog %.3f\n", name, medium, where, error, ratio,
                    rel_mse(read_exr(clear, {"R", "G", "B"}), truth));

@@ -11,8 +11,10 @@ int main()
     const double expected = (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
     const float single = brume::maths_float::henyey_greenstein(float(g), float(cosine));
     const double twice = brume::maths_double::henyey_greenstein(g, cosine);
+    brume_plugin_medium medium{};
+    medium.scattering[1] = 0.25f;
     brume_plugin_scene scene{};
-    scene.medium.scattering[1] = 0.25f;
+    scene.medium = &medium;
     const float scattering = brume::maths_float::medium_of(scene).scattering.y;
     if (std::abs(single - expected) < 1e-6 && std::abs(twice - expected) < 1e-13 && scattering == 0.25f)
         return 0;
