@@ -1,9 +1,12 @@
 // airlight: what the scene's lights scatter once toward the camera (Zhou et al. 2007, Sun et al. 2005).
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "encounters.h"
+#include "layers.h"
 #include "passes.h"
 #include "state.h"
 
@@ -23,7 +26,10 @@ public:
         state_->parameters = read_parameters(request.parameters);
         state_->width = request.width;
         state_->height = request.height;
-        state_->attenuates = !request.attenuated;
+        state_->attenuates = services.made(host, "attenuated_radiance") != BRUME_MADE_EARLIER;
+        state_->layered = services.made(host, "density_rgb") == BRUME_MADE_EARLIER;
+        for (uint32_t i = 0; i < layer_count; ++i)
+            outputs_ |= request.layers[i] ? 1u << i : 0;
     }
 
     brume_status plan(std::unique_ptr<State> &out);
@@ -44,21 +50,21 @@ private:
     brume_status need_camera();
     double gather_operations() const;
     brume_status plan_gather();
+    const char *why_unlit(bool dense) const;
 
     const brume_services &services_;
     brume_host host_;
     const brume_plugin_request &request_;
     const brume_plugin_scene &scene_;
     std::unique_ptr<State> state_;
+    uint32_t outputs_ = 0;  // those wanted: bits by the order of the layers table
 };
 
 // The published tiers know less of media than the others; a wrong picture would be worse than none.
 brume_status Planner::check_tier()
 {
     const Tier tier = state_->parameters.tier;
-    const auto &m = scene_.medium;
-    if (tier == Tier::reference && request_.backend != BRUME_BACKEND_CPU)
-        return fail("tier: reference; expected nodes, fogshop or sun on the GL backend (the reference runs in double on the CPU)");
+    const auto &m = *scene_.medium;
     if (tier != Tier::sun && tier != Tier::fogshop)
         return BRUME_OK;
     const std::string name = tier == Tier::sun ? "sun" : "fogshop";
@@ -74,10 +80,12 @@ brume_status Planner::need_camera()
     if (state_->lit)
         return services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
                                      "the lights are placed in the world");
+    if (state_->layered)
+        return BRUME_OK;
     if (request_.pose_matters)
         return services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
                                      "the medium's density changes with the position");
-    if (scene_.camera.depth_kind != BRUME_DEPTH_RAY)
+    if (scene_.camera->depth_kind != BRUME_DEPTH_RAY)
         return services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW,
                                      "the depth is planar and the field of view turns it into distance along the ray");
     return BRUME_OK;
@@ -96,7 +104,8 @@ double Planner::gather_operations() const
     // Mesa's software GL vectorises cells well and panels badly.
     const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 700,
                  of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 1900;
-    double operations = 100 + of_terms[finer] * lights * (of_light + of_term * scene_.medium.term_count);
+    const double of_orders = p.orders == Orders::all ? 3 : 1;
+    double operations = 100 + of_orders * of_terms[finer] * lights * (of_light + of_term * scene_.medium->term_count);
     if (scene_.gaussian_count > 0)
         operations +=
             of_gaussians[finer] * (2000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light);
@@ -113,7 +122,7 @@ brume_status Planner::plan_gather()
     };
     if (brume_status s = image("airlight", 4, state.radiance))
         return s;
-    if (request_.outputs & BRUME_OUTPUT_AIRLIGHT_ERROR)
+    if (outputs_ & (1u << layer_airlight_error))
         if (brume_status s = image("airlight error", 4, state.error))
             return s;
     if (reduction > 1)
@@ -121,7 +130,8 @@ brume_status Planner::plan_gather()
             return s;
     if (brume_status s = plan_tables(services_, host_, scene_, state))
         return s;
-    if (state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0)
+    state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
+    if (state.has_blobs)
         if (brume_status s = entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved",
                                    0, 0))
             return s;
@@ -129,43 +139,47 @@ brume_status Planner::plan_gather()
     return entry(
         true, "gather",
         std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
-            (scene_.environment_count ? " and the environment" : "") + " scattered once" +
+            (scene_.environment_count ? " and the environment" : "") +
+            (state.parameters.orders == Orders::all ? " scattered any number of times" : " scattered once") +
             (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
         pixels * (4 + 16), pixels * gather_operations());
 }
 
+const char *Planner::why_unlit(bool dense) const
+{
+    if (scene_.light_count == 0 && scene_.environment_count == 0)
+        return "no lights and no environment";
+    if (state_->layered)
+        return "the density is a layer's total along each ray, which does not say where the lights meet the medium";
+    return dense ? "the medium does not scatter" : "the medium's density is zero everywhere";
+}
+
 brume_status Planner::plan(std::unique_ptr<State> &out)
 {
-    const auto &m = scene_.medium;
     if (!scene_.has_medium)
         return drop("airlight", "the scene has no medium");
-    const bool dense = m.constant > 0 || m.term_count > 0 || scene_.gaussian_count > 0;
+    const auto &m = *scene_.medium;
+    State &state = *state_;
+    const bool dense = state.layered || m.constant > 0 || m.term_count > 0 || scene_.gaussian_count > 0;
     const bool scatters = dense && any(m.scattering);
     const bool acts = dense && (scatters || any(m.absorption) || any(m.emission));
-    const bool lights = scene_.light_count > 0 || scene_.environment_count > 0;
-    state_->lit = scatters && lights;
-    if (!state_->lit && (!acts || !state_->attenuates) && request_.outputs == 0)
-        return drop("airlight", !lights ? "no lights and no environment"
-                                        : dense ? "the medium does not scatter" : "the medium's density is zero everywhere");
+    state.lit = scatters && !state.layered && (scene_.light_count > 0 || scene_.environment_count > 0);
+    if (!state.lit && (!acts || !state.attenuates) && outputs_ == 0)
+        return drop("airlight", why_unlit(dense));
     if (brume_status s = check_tier())
         return s;
     if (brume_status s = need_camera())
         return s;
-    if (!state_->lit && !(request_.outputs & BRUME_OUTPUT_LIGHT_AIRLIGHT)) {
-        if (brume_status s = drop("gather", !lights ? "no lights and no environment" : "the medium does not scatter"))
-            return s;
-    } else if (brume_status s = plan_gather()) {
+    if (brume_status s = state.lit ? plan_gather() : drop("gather", why_unlit(dense)))
         return s;
-    }
-    const double pixels = double(state_->width) * state_->height;
-    if (brume_status s =
-            entry(true, "compose", state_->attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
-                  pixels * (16 + 4 + 16 + (state_->lit ? 16 : 0)),
-                  pixels * ((state_->parameters.reduction > 1 ? 100 : 60) + (state_->attenuates ? 20 : 0))))
+    const double pixels = double(state.width) * state.height;
+    if (brume_status s = entry(true, "compose",
+                               state.attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
+                               pixels * (16 + 8 + 16 + (state.layered ? 16 : 0) + (state.lit ? 16 : 0)),
+                               pixels * ((state.parameters.reduction > 1 ? 100 : 60) + (state.attenuates ? 20 : 0))))
         return s;
-    if (request_.backend == BRUME_BACKEND_GL)
-        if (brume_status s = compile_programs(services_, host_, request_.outputs, *state_))
-            return s;
+    if (brume_status s = create_passes(services_, host_, outputs_, state))
+        return s;
     out = std::move(state_);
     return BRUME_OK;
 }
@@ -181,28 +195,18 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
 {
     State &state = *static_cast<State *>(opaque);
-    const int lights = state.lit ? int(frame->scene->light_count) : 0;
     if (state.lit)
-        if (brume_status s = refresh_lists(*services, host, *frame, state))
+        if (brume_status s = refresh(*services, host, *frame->scene, state))
             return s;
-    std::unique_ptr<Passes> passes;
-    if (brume_status s = (state.compose ? make_gl_passes : make_cpu_passes)(*services, host, state, *frame, passes))
-        return s;
-    if (state.blobs_pending) {
-        if (brume_status s = passes->blobs())
-            return s;
-        state.blobs_pending = false;
-    }
-    if (state.lit)
-        if (brume_status s = passes->gather(
-                {state.radiance, state.error, state.distances, state.parameters.reduction, 0, lights, true}))
-            return s;
-    for (uint32_t l = 0; l < frame->scene->light_count && frame->light_airlight; ++l)
-        if (frame->light_airlight[l])
-            if (brume_status s = passes->gather({frame->light_airlight[l], nullptr, nullptr, 1, std::min(int(l), lights),
-                                                 std::min(int(l) + 1, lights), false}))
-                return s;
-    return passes->compose();
+    return run_passes(*services, host, *frame, state);
+}
+
+// The published tiers know single scattering only.
+uint32_t makes_with(const double *values, uint32_t index)
+{
+    const Parameters p = read_parameters(values);
+    return made[index] != std::string_view("all_scattering") ||
+           (p.orders == Orders::all && (p.tier == Tier::nodes || p.tier == Tier::reference));
 }
 
 }  // namespace
@@ -218,13 +222,19 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
                                      200,
                                      BRUME_THREADS_SAFE,
                                      BRUME_WANTED_WITH_LIGHTS,
-                                     own_outputs,
-                                     1,
                                      uint32_t(parameter_table().size()),
+                                     layer_count,
+                                     uint32_t(std::size(made)),
+                                     product_count,
+                                     0,
                                      parameter_table().data(),
+                                     layer_table,
+                                     made,
+                                     used,
                                      plan,
                                      execute,
                                      [](void *state) { delete static_cast<State *>(state); },
+                                     makes_with,
                                      offer};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

@@ -56,7 +56,7 @@ Encounters encounters(const brume_plugin_scene &scene, int width, int height)
         const Gaussian g = gaussian_of(scene.gaussians[i]);
         spheres.push_back({g.center, gaussian_reach(medium, g)});
     }
-    const auto &c = scene.camera;
+    const auto &c = *scene.camera;
     const double tile_spread = BRUME_TILE_SIZE * 0.5 * (c.tangent_scale[0] + std::abs(c.tangent_scale[1])) / sqrt(2.0);
     Encounters sum;
     double lit = 0;

@@ -22,7 +22,8 @@ constexpr Setting settings[] = {{Tier::nodes, 0.5, 4, 0.20},   {Tier::nodes, 0.1
 
 }  // namespace
 
-uint32_t offer(const brume_plugin_request *request, uint32_t index, double *parameters, double *error)
+uint32_t offer(const brume_services *, brume_host, const brume_plugin_request *request, uint32_t index, double *parameters,
+               double *error)
 {
     if (index >= std::size(settings) || (settings[index].tier == Tier::reference && request->backend != BRUME_BACKEND_CPU))
         return 0;

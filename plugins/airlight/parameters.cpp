@@ -7,7 +7,7 @@ namespace {
 
 using namespace brume_parameters;
 
-enum Index { tier, max_error, resolution, count };
+enum Index { tier, max_error, resolution, orders, ground, ground_height, count };
 
 constexpr brume_parameter_info table[count] = {
     choice("tier", "nodes|fogshop|sun|reference", 0,
@@ -16,6 +16,13 @@ constexpr brume_parameter_info table[count] = {
     number("max_error", 1e-5, 0.5, 0.01, "", "relative error asked of tier nodes: sets its node counts"),
     choice("resolution", "full|half|quarter", 0,
            "evaluate at every pixel, every second or every fourth; the rest is interpolated between pixels of like distance"),
+    choice("orders", "single|all", 0,
+           "single: what lamps scatter once toward the camera; all: any number of times, of points and spots, by tiers nodes and "
+           "reference"),
+    choice("ground", "none|y|z", 0,
+           "world axis that points up from a plane below the lamps, which takes of the fog's light what falls on it; none: "
+           "endless fog. With orders all"),
+    number("ground_height", -1e6, 1e6, 0, "m", "where that plane lies on the axis"),
 };
 
 }  // namespace
@@ -27,7 +34,8 @@ std::span<const brume_parameter_info> parameter_table()
 
 Parameters read_parameters(const double *values)
 {
-    return {Tier(int(values[tier])), values[max_error], 1 << int(values[resolution])};
+    return {Tier(int(values[tier])), values[max_error], 1 << int(values[resolution]), Orders(int(values[orders])),
+            Ground(int(values[ground])), values[ground_height]};
 }
 
 void choose(double *values, Tier chosen, double error, int reduction)

@@ -6,11 +6,16 @@
 namespace airlight {
 
 enum class Tier { nodes, fogshop, sun, reference };
+enum class Orders { single, all };
+enum class Ground { none, y, z };
 
 struct Parameters {
     Tier tier;
     double max_error;  // relative, asked of tier nodes
     int reduction;     // side of the square of pixels that share one evaluation: 1, 2 or 4
+    Orders orders;
+    Ground ground;
+    double ground_height;  // [m]
 };
 
 std::span<const brume_parameter_info> parameter_table();

@@ -1,45 +1,80 @@
+// The passes, described once for every backend.
 #pragma once
-#include <memory>
+#include <brume/brume_plugin.h>
 
-#include "state.h"
+#include "scene_maths.hpp"
 
 namespace airlight {
 
-// One run of the gathering pass: airlight of some lights, of one pixel per square.
-struct Gathering {
-    brume_plugin_image radiance;
-    brume_plugin_image error;      // NULL unless wanted
-    brume_plugin_image distances;  // NULL unless reduction > 1
-    int reduction;
-    int first_light, last_light;
-    bool environment;
+struct State;
+
+// Of all passes; each reads what concerns it.
+struct Constants {
+    brume::maths_float::AirlightSettings airlight;
+    brume::maths_float::ivec2 size;         // of the full images
+    brume::maths_float::ivec2 light_range;  // the lights [x, y) that are gathered
+    int32_t reduction;
+    // What shaders have as defines.
+    int32_t tier;
+    int32_t lit;
+    int32_t attenuates;
 };
 
-// The passes of one frame on one backend.
-class Passes {
-public:
-    virtual ~Passes() = default;
-    // Density from each origin to each Gaussian, for tier fogshop.
-    virtual brume_status blobs() = 0;
-    virtual brume_status gather(const Gathering &gathering) = 0;
-    virtual brume_status compose() = 0;
+// The slots of each pass, by index.
+namespace blobs {
+enum Slot { gaussians, lights, cells, cell_gaussians, shadow_origins, density, slot_count };
+}
+
+namespace gather {
+enum Slot {
+    depth,
+    gaussian_density,
+    tiles,
+    gaussians,
+    lights,
+    tile_gaussians,
+    cells,
+    cell_gaussians,
+    shadow_origins,
+    blob_density,
+    sun_table,
+    environment,
+    environment_table,
+    radiance,
+    error,
+    distances,
+    slot_count
 };
+}
 
-// Both borrow their arguments. *out stays null where a status other than BRUME_OK comes back.
-brume_status make_cpu_passes(const brume_services &services, brume_host host, const State &state,
-                             const brume_plugin_frame &frame, std::unique_ptr<Passes> &out);
-brume_status make_gl_passes(const brume_services &services, brume_host host, const State &state,
-                            const brume_plugin_frame &frame, std::unique_ptr<Passes> &out);
+namespace compose {
+enum Slot {
+    color,
+    density,
+    density_rgb,
+    radiance,
+    error,
+    distances,
+    result,
+    transmittance_out,
+    optical_depth_out,
+    airlight_out,
+    airlight_error_out,
+    slot_count
+};
+}
 
-// The gathering pass of tier reference.
-brume_status gather_reference(const brume_services &services, brume_host host, const State &state,
-                              const brume_plugin_frame &frame, const Gathering &gathering);
+brume_status blobs_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+// Of tier reference, in double; it has no shader.
+brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+// layered: each colour has its own density.
+template <bool layered> brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 
-// At planning: the tables that the tier reads, and the GL programs.
-brume_status plan_tables(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state);
-brume_status compile_programs(const brume_services &services, brume_host host, uint32_t outputs, State &state);
+// At planning, when the entries are there: the passes that the state needs. outputs: bits by the order of the layers table.
+brume_status create_passes(const brume_services &services, brume_host host, uint32_t outputs, State &state);
 
-// Which Gaussians shadow what, made again when something moved.
-brume_status refresh_lists(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state);
+// One frame's passes, in order.
+brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state);
 
 }  // namespace airlight

@@ -1,7 +1,10 @@
 // Tier `reference`: adaptive quadrature in double along each pixel's ray, on the CPU.
+#include <vector>
+
 #include "common/pixels.hpp"
 #include "passes.h"
 #include "reference_ray.h"
+#include "settings.h"
 
 namespace airlight {
 
@@ -11,27 +14,21 @@ using brume_pixels::store;
 
 namespace {
 
-Data copy_of(const brume_services &services, brume_host host, brume_plugin_image image)
+Data copy_of(const brume_plugin_pixels &p)
 {
-    brume_plugin_pixels p{};
-    if (!image || services.pixels(host, image, &p))
-        return Data(nullptr, 0, 4);
-    return Data(p.data, size_t(p.width) * size_t(p.height), p.channels);
+    return p.data ? Data(p.data, size_t(p.width) * size_t(p.height), p.channels) : Data(nullptr, 0, 4);
 }
 
 }  // namespace
 
-brume_status gather_reference(const brume_services &services, brume_host host, const State &state,
-                              const brume_plugin_frame &frame, const Gathering &to)
+// What each block of rows converts again is nothing beside what it integrates.
+brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
-    const brume_plugin_scene &scene = *frame.scene;
-    brume_plugin_pixels depth{}, gaussian_density{}, radiance{}, error{}, distances{};
-    const std::pair<brume_plugin_image, brume_plugin_pixels *> images[] = {
-        {frame.depth, &depth}, {frame.gaussian_density, &gaussian_density}, {to.radiance, &radiance}, {to.error, &error}, {to.distances, &distances}};
-    for (auto &[image, pixels] : images)
-        if (image)
-            if (brume_status s = services.pixels(host, image, pixels))
-                return s;
+    const Constants &constants = *static_cast<const Constants *>(call->constants);
+    const brume_plugin_scene &scene = *call->scene;
+    const brume_plugin_pixels *slots = call->slots;
+    const brume_plugin_pixels &depth = slots[gather::depth], &gaussian_density = slots[gather::gaussian_density],
+                              &error = slots[gather::error], &distances = slots[gather::distances];
     const Camera camera = camera_of(scene);
     std::vector<Gaussian> gaussians;
     for (uint32_t i = 0; i < scene.gaussian_count; ++i)
@@ -40,28 +37,26 @@ brume_status gather_reference(const brume_services &services, brume_host host, c
     const Data light_data = lights_of(scene);
     for (uint32_t i = 0; i < scene.light_count; ++i)
         lights.push_back(light_at(light_data.texture(), int(i)));
-    const bool lit_around = to.environment && state.environment_order > 0;
-    const Data environment = copy_of(services, host, lit_around ? state.environment : nullptr);
-    const Data environment_table = copy_of(services, host, lit_around ? state.environment_table : nullptr);
-    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera};
-    const ivec2 size(state.width, state.height);
-    return brume_pixels::for_rows(services, host, "gather", radiance.height, 1, [&](int y) {
-        for (int x = 0; x < radiance.width; ++x) {
-            const ivec2 pixel = representative(ivec2(x, y), to.reduction, size);
-            const Ray ray = pixel_ray(camera, vec2(pixel) + 0.5, *at(depth, pixel.x, pixel.y));
-            brume::airlight::ReferenceAirlight a;
-            if (!ray.keep)
-                a = reference_airlight(seen, ray.direction, ray.distance, to.first_light, to.last_light);
-            if (!ray.keep && lit_around)
-                a.radiance += environment_airlight(
-                    seen.medium, camera, environment.texture(), environment_table.texture(), state.environment_order,
-                    ray.direction, density_to(seen.medium, ray, gaussian_density.data ? *at(gaussian_density, pixel.x, pixel.y) : 0));
-            store(radiance, x, y, {a.radiance, 1.0f});
-            if (error.data)
-                store(error, x, y, {a.error, 1.0f});
-            if (distances.data)
-                *at(distances, x, y) = float(ray.distance);
-        }
+    const Data environment = copy_of(slots[gather::environment]);
+    const Data environment_table = copy_of(slots[gather::environment_table]);
+    const int environment_order = constants.airlight.environment_order;
+    const brume::maths_float::AirlightSettings &settings = constants.airlight;
+    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, vec4(settings.ground)};
+    return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
+        const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.size);
+        const Ray ray = pixel_ray(camera, vec2(pixel) + 0.5, *at(depth, pixel.x, pixel.y));
+        brume::airlight::ReferenceAirlight a;
+        if (!ray.keep)
+            a = reference_airlight(seen, ray.direction, ray.distance, constants.light_range.x, constants.light_range.y);
+        if (!ray.keep && environment_order > 0)
+            a.radiance += environment_airlight(
+                seen.medium, camera, environment.texture(), environment_table.texture(), environment_order, ray.direction,
+                density_to(seen.medium, ray, gaussian_density.data ? *at(gaussian_density, pixel.x, pixel.y) : 0));
+        store(slots[gather::radiance], x, y, {a.radiance, 1.0f});
+        if (error.data)
+            store(error, x, y, {a.error, 1.0f});
+        if (distances.data)
+            *at(distances, x, y) = float(ray.distance);
     });
 }
 

@@ -58,9 +58,10 @@ public:
             way = from / std::max(d, 1e-300);
         }
         const double strength = lit_strength(medium, light_, aspect_, direction_, t);
-        if (strength <= 0)
+        if (strength <= 0 && scene_.orders == orders_single)
             return vec3(0);
-        double depth = terms_integral(medium, vec3(0), direction_, t, t) + terms_integral(medium, x, -way, d, constant_distance);
+        double depth = terms_integral(medium, vec3(0), direction_, t, t);
+        double to_light = terms_integral(medium, x, -way, d, constant_distance);
         vec3 scattering(density_at(medium, x));
         for (size_t i = 0; i < seen_.size(); ++i) {
             const Gaussian &g = scene_.gaussians[i];
@@ -68,11 +69,14 @@ public:
             const Profile shadow = profile_along(g, x, -way);
             depth += integral_of(seen_[i], t);
             if (shadow.peak > 1e-14 * most_[i])
-                depth += integral_of(shadow, d);
+                to_light += integral_of(shadow, d);
             scattering += seen_[i].peak * std::exp(-y * y) * g.colour;
         }
-        return strength * light_.intensity * medium.scattering * scattering *
-               glm::exp(-(medium.scattering + medium.absorption) * std::min(depth, density_limit));
+        const vec3 extinction = medium.scattering + medium.absorption;
+        vec3 arrives = strength * light_.intensity * glm::exp(-extinction * std::min(to_light, density_limit));
+        if (scene_.orders == orders_all)
+            arrives += rescattered_strength(medium, light_, aspect_, scene_.ground, direction_, t, std::min(to_light, density_limit));
+        return arrives * medium.scattering * scattering * glm::exp(-extinction * std::min(depth, density_limit));
     }
 
     // Where it may bend: quadrature begins with these ends.

@@ -11,6 +11,8 @@ struct ReferenceScene {
     std::span<const maths_double::Gaussian> gaussians;
     std::span<const maths_double::Light> lights;
     maths_double::Camera camera{};  // its axes place the medium's noise
+    int orders = maths_double::orders_single;
+    maths_double::vec4 ground{};
 };
 
 struct ReferenceAirlight {

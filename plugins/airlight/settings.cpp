@@ -21,6 +21,13 @@ AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene
     // Of one Gaussian reach_share at most; of all that light a pixel, measured (tests AirlightErrorEstimate).
     s.culled = scene.gaussian_count > 0 ? 0.3f * reach_share : 0.0f;
     brume::airlight::set_quality(s, state.parameters.max_error);
+    s.orders = state.parameters.orders == Orders::all ? orders_all : orders_single;
+    s.ground = vec4(0);
+    if (state.parameters.ground != Ground::none) {
+        const int axis = state.parameters.ground == Ground::y ? 1 : 2;
+        const brume_plugin_camera &c = *scene.camera;
+        s.ground = vec4(c.right[axis], c.up[axis], c.back[axis], float(scene.position[axis] - state.parameters.ground_height));
+    }
     return s;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "scene_maths.hpp"
 #include "state.h"
 
 namespace airlight {

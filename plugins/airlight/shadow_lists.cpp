@@ -92,7 +92,7 @@ bool ShadowLists::build(const brume_plugin_scene &scene, bool moved, bool with_c
     spheres_.resize(scene.gaussian_count);
     for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
         const brume_plugin_gaussian &g = scene.gaussians[i];
-        spheres_[i] = {in_world_axes(scene.camera, g.center), gaussian_reach(medium, gaussian_of(g))};
+        spheres_[i] = {in_world_axes(*scene.camera, g.center), gaussian_reach(medium, gaussian_of(g))};
     }
 
     const uint32_t count = 1 + scene.light_count;
@@ -109,7 +109,7 @@ bool ShadowLists::build(const brume_plugin_scene &scene, bool moved, bool with_c
         if (light.type == BRUME_LIGHT_DIRECTIONAL)
             add_across(scene, l, first, &origins[12 * (1 + l)], moved);
         else if (moved)
-            add_around(in_world_axes(scene.camera, light.position), first);
+            add_around(in_world_axes(*scene.camera, light.position), first);
         if (entries_.size() > most_entries)
             return false;
     }
@@ -156,7 +156,7 @@ void ShadowLists::add_around(const std::array<double, 3> &origin, uint32_t first
 // camera as the others do.
 void ShadowLists::add_across(const brume_plugin_scene &scene, uint32_t l, uint32_t first_cell, float *texels, bool moved)
 {
-    const vec3 direction = three(in_world_axes(scene.camera, scene.lights[l].direction));
+    const vec3 direction = three(in_world_axes(*scene.camera, scene.lights[l].direction));
     const vec3 helper = std::abs(direction.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     const vec3 u = glm::normalize(cross(direction, helper)), v = cross(direction, u);
     vec2 low(1e30), high(-1e30);
@@ -168,7 +168,7 @@ void ShadowLists::add_across(const brume_plugin_scene &scene, uint32_t l, uint32
     if (spheres_.empty())
         low = high = vec2(0);
     const vec2 size = max(high - low, vec2(1e-20));
-    const vec3 axes[2] = {in_camera_axes(scene.camera, u / size.x), in_camera_axes(scene.camera, v / size.y)};
+    const vec3 axes[2] = {in_camera_axes(*scene.camera, u / size.x), in_camera_axes(*scene.camera, v / size.y)};
     for (int axis = 0; axis < 2; ++axis) {
         for (int i = 0; i < 3; ++i)
             texels[4 * axis + i] = float(axes[axis][i]);

@@ -4,17 +4,24 @@
 #include <brume/brume_plugin.h>
 
 #include "parameters.h"
-#include "scene_maths.hpp"
 #include "shadow_lists.h"
 
 namespace airlight {
 
-// What of BRUME_OUTPUT_... this effect fills.
-constexpr uint32_t own_outputs = BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_AIRLIGHT |
-                                 BRUME_OUTPUT_AIRLIGHT_ERROR | BRUME_OUTPUT_LIGHT_AIRLIGHT;
+// In the order of the effect's tables.
+enum Layer { layer_transmittance, layer_optical_depth, layer_airlight, layer_airlight_error, layer_light_airlight, layer_count };
+enum Product { product_density, product_density_rgb, product_gaussian_density, product_gaussians, product_lights, product_count };
 
-// Slots of the data images.
-enum Slot : uint32_t { slot_origins, slot_cells, slot_cell_gaussians, slot_blob_density, slot_sun_table, slot_environment, slot_environment_table };
+// Of the data images.
+enum Upload : uint32_t {
+    upload_origins,
+    upload_cells,
+    upload_cell_gaussians,
+    upload_blob_density,
+    upload_sun_table,
+    upload_environment,
+    upload_environment_table
+};
 
 // What one plan of this effect holds. Images that a plan does not need are NULL.
 struct State {
@@ -23,31 +30,41 @@ struct State {
     int height = 0;
     bool lit = false;          // some light or environment scatters in the medium
     bool attenuates = false;   // no effect before this one does
+    bool layered = false;      // a layer of the caller's stands for the medium's density
+    bool has_blobs = false;    // tier fogshop, in a medium with Gaussians
     brume_plugin_image radiance = nullptr;   // airlight of one pixel per square
     brume_plugin_image error = nullptr;      // its estimated error
     brume_plugin_image distances = nullptr;  // of those pixels; where they are fewer than the image's
     brume_plugin_image sun_table = nullptr;
-    brume_plugin_image environment = nullptr;  // its coefficients
     brume_plugin_image environment_table = nullptr;
     int environment_order = 0;
 
     // Refreshed when something moved.
+    brume_plugin_image environment = nullptr;  // its coefficients
     brume_plugin_image origins = nullptr, cells = nullptr, cell_gaussians = nullptr;
-    brume_plugin_image blob_density = nullptr;  // tier fogshop
-    bool blobs_pending = false;                 // its pass has to run
+    brume_plugin_image blob_density = nullptr;
+    bool blobs_pending = false;  // its pass has to run
     ShadowLists lists;
+    std::vector<float> values;  // on their way to an image
     uint64_t revision = 0;
     brume_plugin_camera camera{};
     double position[3] = {};
-    bool listed = false;
+    bool fresh = false;
 
-    // GL programs; NULL on the CPU.
-    brume_program blobs = nullptr;
-    brume_program gather = nullptr;
-    brume_program compose = nullptr;
+    // NULL: not needed.
+    brume_pass blobs = nullptr;
+    brume_pass gather = nullptr;
+    brume_pass compose = nullptr;
 };
 
+// At planning: the tables that the tier reads.
+brume_status plan_tables(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state);
+
+// Which Gaussians shadow what, and the environment, made again when something moved.
+brume_status refresh(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state);
+
 // As brume_effect.
-uint32_t offer(const brume_plugin_request *request, uint32_t index, double *parameters, double *error);
+uint32_t offer(const brume_services *services, brume_host host, const brume_plugin_request *request, uint32_t index,
+               double *parameters, double *error);
 
 }  // namespace airlight

@@ -41,6 +41,9 @@ template <> struct ConstantType<brume::maths_float::vec2> {
 template <> struct ConstantType<brume::maths_float::vec3> {
     static constexpr uint32_t type = BRUME_CONSTANT_FLOAT, components = 3;
 };
+template <> struct ConstantType<brume::maths_float::vec4> {
+    static constexpr uint32_t type = BRUME_CONSTANT_FLOAT, components = 4;
+};
 
 // The member of a pass's constants, and of the GLSL uniform of the same name.
 #define BRUME_CONSTANT(Struct, member)                                                                                      \

@@ -208,6 +208,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->height = request_.height;
     state->reduction = state->parameters.kernel == Kernel::calibrated ? state->parameters.reduction : 1;
     state->beside_lights = services_.made(host_, "single_scattering") != BRUME_MADE_NOWHERE;
+    state->beside_all_orders = services_.made(host_, "all_scattering") != BRUME_MADE_NOWHERE;
     state->layered = layered_;
     for (uint32_t i = 0; i < layer_count; ++i)
         state->outputs |= request_.layers[i] ? 1u << i : 0;

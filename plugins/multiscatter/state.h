@@ -20,7 +20,8 @@ struct State {
     int height = 0;
     int reduction = 1;  // kernel calibrated: side of the square of pixels that is one texel of the pyramid's level 0
     int top = 0;        // K; 0: no pyramid
-    bool beside_lights = false;  // another effect adds what the lights scatter once
+    bool beside_lights = false;      // another effect adds what the lights scatter once,
+    bool beside_all_orders = false;  // or all of it
     bool layered = false;        // each colour has a density of its own: product density_rgb
     uint32_t outputs = 0;        // bits by Layer
 

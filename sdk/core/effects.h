@@ -34,7 +34,8 @@ struct Effect {
     std::vector<Layer> layers;
     std::vector<std::string> makes, uses;  // products
     const brume_effect *table = nullptr;
-    decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it
+    decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it, as the next
+    decltype(brume_effect::makes_with) makes_with = nullptr;
     std::shared_ptr<void> library;  // keeps the code loaded
 };
 

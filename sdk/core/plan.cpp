@@ -184,9 +184,17 @@ void brume_host_t::set_parameters()
     }
 }
 
-bool brume_host_t::is_made_by(const Effect &effect, const std::string &product) const
+bool brume_host_t::is_made_by(const PlannedEffect &planned, const std::string &product) const
 {
-    return contains(effect.makes, product);
+    const Effect &effect = *planned.effect;
+    const auto found = std::find(effect.makes.begin(), effect.makes.end(), product);
+    if (found == effect.makes.end() || !effect.makes_with)
+        return found != effect.makes.end();
+    try {
+        return effect.makes_with(planned.parameters.data(), uint32_t(found - effect.makes.begin())) != 0;
+    } catch (...) {
+        throw Error(BRUME_ERROR_PLUGIN, effect.name + ": threw in makes_with");
+    }
 }
 
 uint32_t brume_host_t::made(const std::string &product) const
@@ -199,7 +207,7 @@ uint32_t brume_host_t::made(const std::string &product) const
     uint32_t made = BRUME_MADE_NOWHERE;
     for (const PlannedEffect &planned : effects_) {
         passed = passed || &planned == current_;
-        if (!contains(planned.effect->makes, product))
+        if (!is_made_by(planned, product))
             continue;
         if (!passed && planned.runs)
             return BRUME_MADE_EARLIER;
@@ -518,7 +526,7 @@ void brume_host_t::publish(const char *product, const brume_plugin_image *images
 {
     if (!product || (!images && image_count > 0))
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("publish: {} is NULL", product ? "images" : "product"));
-    if (current_ && !is_made_by(*current_->effect, product))
+    if (current_ && !is_made_by(*current_, product))
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("publish: {} is not among what the effect's table says it makes", product));
     products_.publish(product, images, image_count, count, revision);
 }

@@ -107,7 +107,7 @@ private:
     void release() noexcept;
     void destroy_states() noexcept;
     double share_before(int entry) const;  // of the frame's predicted time
-    bool is_made_by(const brume::Effect &effect, const std::string &product) const;
+    bool is_made_by(const brume::PlannedEffect &planned, const std::string &product) const;
 
     int64_t run_effects(const brume_frame &frame);
     void run_effect(brume::PlannedEffect &planned, brume_plugin_frame &seen);

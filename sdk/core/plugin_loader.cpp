@@ -241,6 +241,7 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.uses = copy_names(table.uses, table.use_count, "uses");
     effect.table = source;
     effect.offer = table.offer;
+    effect.makes_with = table.makes_with;
 }
 
 std::shared_ptr<void> open_library(const std::string &file)

@@ -7,6 +7,9 @@ const int airlight_fogshop = 1;
 const int airlight_nodes = 2;
 const int airlight_reference = 3;
 
+const int orders_single = 0;
+const int orders_all = 1;  // tiers nodes and reference
+
 struct AirlightSettings {
     int light_count;
     int gaussian_count;
@@ -18,6 +21,8 @@ struct AirlightSettings {
     float tolerance;       // of a panel, relative to the whole
     float near_radii;      // a light nearer than so many radii of a Gaussian needs other nodes
     float culled;          // share of the airlight that may be missing by what the lists leave out
+    int orders;
+    vec4 ground;           // camera space, as height_above() has it
 };
 
 struct Airlight {

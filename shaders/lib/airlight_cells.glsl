@@ -1,4 +1,4 @@
-// The tier `nodes` where many Gaussians lie along the ray: their summed density in cells. Needs airlight.glsl, tiles.glsl.
+// The tier `nodes` where many Gaussians lie along the ray: their summed density in cells. Needs airlight_orders.glsl, tiles.glsl.
 //
 // Between two edges the mass, its centroid and the transmittance to the camera are exact (erf and exp of each Gaussian at the
 // edges), whatever the density does there, and only the light is taken as it is at the centroid. That is of second order, but
@@ -152,10 +152,13 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                 float t = moment[j];
                 vec3 f = vec3(R(0.0));
                 float strength = lit_strength(medium, light, aspect, sight.direction, t);
-                if (strength > R(0.0)) {
+                if (strength > R(0.0) || (settings.orders == orders_all && light.type == light_spot)) {
                     vec3 point = t * sight.direction;
                     float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
                     f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
+                    if (settings.orders == orders_all)
+                        f += rescattered_strength(medium, light, aspect, settings.ground, sight.direction, t,
+                                                  clamp(depth, R(0.0), density_limit));
                 }
                 total.radiance += min(f * coloured[j], vec3(radiance_limit));
                 if (j > 1) {

@@ -92,6 +92,27 @@ PURE float half_turn_tangent(float x, float h)
     return x < R(0.0) ? h / (d - x) : (d + x) / h;
 }
 
+// How fast an integrand's Legendre coefficients 4 to 7 fall off tells how large those from 16 on are that the nodes cannot see:
+// x the larger of the last two, y their ratio to the two before.
+PURE vec2 panel_rest(float value[8])
+{
+    float e0 = value[3] + value[4];
+    float e1 = value[2] + value[5];
+    float e2 = value[1] + value[6];
+    float e3 = value[0] + value[7];
+    float o0 = value[4] - value[3];
+    float o1 = value[5] - value[2];
+    float o2 = value[6] - value[1];
+    float o3 = value[7] - value[0];
+    float c4 = R(0.414176096737) * e0 - R(0.461585322597) * e1 - R(0.242896191478) * e2 + R(0.290305417338) * e3;
+    float c5 = R(0.581608863449) * o0 + R(0.0535658110052) * o1 - R(0.493295376662) * o2 + R(0.268829358779) * o3;
+    float c6 = -R(0.267389671426) * e0 + R(0.616604863503) * e1 - R(0.559107383143) * e2 + R(0.209892191067) * e3;
+    float c7 = -R(0.784906557922) * o0 + R(0.631774553119) * o1 - R(0.377896937085) * o2 + R(0.117692456448) * o3;
+    float lower = max(abs(c4), abs(c5));
+    float upper = max(abs(c6), abs(c7));
+    return vec2(upper, min(upper / max(lower, R(1e-37)), R(1.0)));
+}
+
 // The integral over z in [z, z + dz].
 PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler2D tile_gaussians, IN(Sight) sight, int index,
                     IN(Light) light, IN(Aspect) aspect, int part, IN(Path) path, float z, float dz)
@@ -148,23 +169,9 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         sum += weight * f;
         noise += weight * value[k] * (digits + depth);
     }
-    // How fast the integrand's Legendre coefficients 4 to 7 fall off tells how large those from 16 on are that the nodes
-    // cannot see.
-    float e0 = value[3] + value[4];
-    float e1 = value[2] + value[5];
-    float e2 = value[1] + value[6];
-    float e3 = value[0] + value[7];
-    float o0 = value[4] - value[3];
-    float o1 = value[5] - value[2];
-    float o2 = value[6] - value[1];
-    float o3 = value[7] - value[0];
-    float c4 = R(0.414176096737) * e0 - R(0.461585322597) * e1 - R(0.242896191478) * e2 + R(0.290305417338) * e3;
-    float c5 = R(0.581608863449) * o0 + R(0.0535658110052) * o1 - R(0.493295376662) * o2 + R(0.268829358779) * o3;
-    float c6 = -R(0.267389671426) * e0 + R(0.616604863503) * e1 - R(0.559107383143) * e2 + R(0.209892191067) * e3;
-    float c7 = -R(0.784906557922) * o0 + R(0.631774553119) * o1 - R(0.377896937085) * o2 + R(0.117692456448) * o3;
-    float lower = max(abs(c4), abs(c5));
-    float upper = max(abs(c6), abs(c7));
-    float fall = min(upper / max(lower, R(1e-37)), R(1.0));
+    vec2 rest = panel_rest(value);
+    float upper = rest.x;
+    float fall = rest.y;
     float error = upper * fall * fall * fall;
     if (path.kind == path_bell)
         error = dz == R(1.0) ? R(0.04) * upper * fall : R(0.5) * error * fall;

@@ -16,18 +16,22 @@ PURE bool shows_light(sampler2D spheres, int count, IN(Camera) camera, vec2 pixe
     return false;
 }
 
-// The share of a source's scattered light that is no other effect's: of listed lights the first scattering is.
-PURE vec3 shown_share(sampler2D spheres, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, IN(Pixel) p)
+// The share of a source's scattered light that is no other effect's: of listed lights the first scattering is, or (all_orders) all
+// that they scatter.
+PURE vec3 shown_share(sampler2D spheres, int count, int all_orders, IN(Medium) medium, IN(Camera) camera, vec2 pixel, IN(Pixel) p)
 {
     if (count == 0 || !shows_light(spheres, count, camera, pixel, p.distance))
         return vec3(R(1.0));
+    if (all_orders != 0)
+        return vec3(R(0.0));
     return rescattered_share(medium, p.density) / max(scattered_share(medium, p.density), vec3(R(1e-30)));
 }
 
 // L_sc / L of kernel `paper` beside such an effect.
-PURE vec3 share_beside_lights(sampler2D spheres, int count, IN(Medium) medium, IN(Camera) camera, vec2 pixel, IN(Pixel) p)
+PURE vec3 share_beside_lights(sampler2D spheres, int count, int all_orders, IN(Medium) medium, IN(Camera) camera, vec2 pixel,
+                              IN(Pixel) p)
 {
-    if (count > 0 && shows_light(spheres, count, camera, pixel, p.distance))
-        return rescattered_share(medium, p.density);
-    return p.share;
+    if (count == 0 || !shows_light(spheres, count, camera, pixel, p.distance))
+        return p.share;
+    return all_orders != 0 ? vec3(R(0.0)) : rescattered_share(medium, p.density);
 }

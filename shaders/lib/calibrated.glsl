@@ -14,7 +14,8 @@ struct Calibrated {
     int top;             // K, the coarsest level
     int step;            // light stays at every step-th level, counted from the coarsest
     int coverage;        // channels that coverage has: 1 in grey media
-    int lights;          // those whose single scattering another effect adds
+    int lights;          // those that can be seen and whose scattering another effect adds: once,
+    int all_orders;      // or all of it
     float first_place;   // log2 of P at place 0 of the table
     float per_reach;     // 1 / P there
     vec3 detour;         // y / P^1.2 of arrived()

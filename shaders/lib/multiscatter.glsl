@@ -18,7 +18,8 @@ struct Filter {
     float bright_width;     // epsilon_y
     float dense;            // T_d' [m at unit density]
     float dense_width;      // epsilon_d'
-    int lights;             // those whose single scattering another effect adds
+    int lights;             // those that can be seen and whose scattering another effect adds: once,
+    int all_orders;         // or all of it
     float separation_level; // k_ssc
 };
 

@@ -64,7 +64,7 @@ void main()
 #endif
     vec3 added = pixel.emitted;
 #if PYRAMID == 2
-    vec3 shown = shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, pixel);
+    vec3 shown = shown_share(lights, calibrated.lights, calibrated.all_orders, brume_medium, brume_camera, centre, pixel);
     Pyramid pyramid = Pyramid(reduced_size(brume_grid, REDUCTION), calibrated.top);
     vec2 position = centre / float(REDUCTION);
 #if REDUCTION > 1

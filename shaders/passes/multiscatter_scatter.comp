@@ -38,7 +38,7 @@ void main()
     Pixel pixel = pixel_in_medium(brume_medium, brume_camera, texel);
 #endif
     pixel = placed_pixel(pixel, brume_medium, brume_camera, multiscatter, centre, texel, texelFetch(gaussian_density, p, 0).g);
-    pixel.share = share_beside_lights(lights, multiscatter.lights, brume_medium, brume_camera, centre, pixel);
+    pixel.share = share_beside_lights(lights, multiscatter.lights, multiscatter.all_orders, brume_medium, brume_camera, centre, pixel);
     Sources s = scattered_sources(brume_medium, multiscatter, pixel, texelFetch(color, p, 0).rgb);
     imageStore(radiance, p, s.spread);
     if (multiscatter.separation != 0)

@@ -44,7 +44,7 @@ void main()
     Pixel pixel = pixel_in_medium(brume_medium, brume_camera, texel);
 #endif
     Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share, square.color,
-                                   shown_share(lights, calibrated.lights, brume_medium, brume_camera, centre, pixel));
+                                   shown_share(lights, calibrated.lights, calibrated.all_orders, brume_medium, brume_camera, centre, pixel));
     imageStore(radiance, p, s.radiance);
     imageStore(coverage, p, vec4(s.coverage, 1.0));
 }

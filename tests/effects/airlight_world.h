@@ -20,6 +20,7 @@ inline narrow::Medium narrowed(const Medium &m)
     n.absorption = m.absorption;
     n.luminance = m.luminance;
     n.phase = m.phase;
+    n.asymmetry = float(m.asymmetry);
     n.constant = float(m.constant);
     n.term_count = m.term_count;
     for (int i = 0; i < m.term_count; ++i)
@@ -80,7 +81,7 @@ public:
 
     brume::airlight::ReferenceAirlight reference() const
     {
-        return brume::airlight::reference_airlight({case_.medium, case_.gaussians, case_.lights}, case_.direction, case_.distance,
+        return brume::airlight::reference_airlight({case_.medium, case_.gaussians, case_.lights, {}, settings.orders, vec4(settings.ground)}, case_.direction, case_.distance,
                                                    0, int(case_.lights.size()));
     }
 

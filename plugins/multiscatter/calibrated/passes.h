@@ -19,6 +19,7 @@ inline constexpr brume_constant calibrated_constants[] = {
     BRUME_CONSTANT_OF(CalibratedConstants, calibrated, step),
     BRUME_CONSTANT_OF(CalibratedConstants, calibrated, coverage),
     BRUME_CONSTANT_OF(CalibratedConstants, calibrated, lights),
+    BRUME_CONSTANT_OF(CalibratedConstants, calibrated, all_orders),
     BRUME_CONSTANT_OF(CalibratedConstants, calibrated, first_place),
     BRUME_CONSTANT_OF(CalibratedConstants, calibrated, per_reach),
     BRUME_CONSTANT_OF(CalibratedConstants, calibrated, detour),

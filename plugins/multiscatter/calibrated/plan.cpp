@@ -89,6 +89,7 @@ Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene, co
             state.parameters.step,
             state.coverage_channels,
             state.beside_lights ? int(visible_lights) : 0,
+            state.beside_all_orders,
             float(first_place(tabled)),
             float(std::exp2(-first_place(tabled))),
             detour};

@@ -33,6 +33,7 @@ Filter filter_of(const State &state, const brume_plugin_scene &scene, uint32_t v
     Filter f = state.parameters.filter;
     f.top = state.top;
     f.lights = state.beside_lights ? int(visible_lights) : 0;
+    f.all_orders = state.beside_all_orders;
     // One level more than the blur asks for, since the cubic interpolation between levels reaches that far.
     double blur = largest_blur(scene) * (f.placement ? std::sqrt(3.0) : 1.0);
     if (std::isfinite(blur))

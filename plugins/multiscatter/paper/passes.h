@@ -29,6 +29,7 @@ inline constexpr brume_constant paper_constants[] = {
     BRUME_CONSTANT_OF(PaperConstants, multiscatter, dense),
     BRUME_CONSTANT_OF(PaperConstants, multiscatter, dense_width),
     BRUME_CONSTANT_OF(PaperConstants, multiscatter, lights),
+    BRUME_CONSTANT_OF(PaperConstants, multiscatter, all_orders),
     BRUME_CONSTANT_OF(PaperConstants, multiscatter, separation_level),
     BRUME_CONSTANT(PaperConstants, level),
     BRUME_CONSTANT(PaperConstants, finer_size),

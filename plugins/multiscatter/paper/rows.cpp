@@ -73,7 +73,7 @@ brume_status paper_scatter_rows(const brume_plugin_rows *rows, int32_t first, in
     return for_pixels(*rows, first, last, [&](int x, int y) {
         Pixel pixel = call.pixel_at(x, y);
         pixel.share =
-            share_beside_lights(texture_of(call.slots[lights]), f.lights, call.medium, call.camera, pixel_centre(x, y), pixel);
+            share_beside_lights(texture_of(call.slots[lights]), f.lights, f.all_orders, call.medium, call.camera, pixel_centre(x, y), pixel);
         const Sources s = scattered_sources(call.medium, f, pixel, vec3(load(call.slots[color], x, y)));
         store(call.slots[radiance], x, y, s.spread);
         if (call.slots[separated].data)

@@ -70,7 +70,7 @@ private:
 
 Calibrated in_double(const brume::maths_float::Calibrated &f)
 {
-    return {f.top, f.step, 4, f.lights, double(f.first_place), double(f.per_reach), vec3(f.detour)};
+    return {f.top, f.step, 4, f.lights, f.all_orders, double(f.first_place), double(f.per_reach), vec3(f.detour)};
 }
 
 void CalibratedSplatting::find_sources(const ReferenceFrame &frame, int first, int last)
@@ -79,7 +79,7 @@ void CalibratedSplatting::find_sources(const ReferenceFrame &frame, int first, i
     for (int y = first; y < last; ++y)
         for (int x = 0; x < frame.state.width; ++x) {
             const Pixel pixel = frame.pixel_at(x, y);
-            const vec3 shown = shown_share(frame.lights.texture(), f.lights, frame.medium, frame.camera,
+            const vec3 shown = shown_share(frame.lights.texture(), f.lights, f.all_orders, frame.medium, frame.camera,
                                            vec2(x + 0.5, y + 0.5), pixel) *
                                finite_or_zero(frame.color_at(x, y));
             const double octaves = octaves_of(pixel.density);

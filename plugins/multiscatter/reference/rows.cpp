@@ -117,13 +117,13 @@ brume_status execute_reference(const brume_services &services, brume_host host, 
     for (uint32_t i = 0; i < frame.scene->light_count; ++i)
         if (const brume_plugin_light &light = frame.scene->lights[i]; light.radius > 0)
             spheres.insert(spheres.end(), {light.position[0], light.position[1], light.position[2], light.radius});
-    Job job{{.state = state,
-             .scene = *frame.scene,
-             .medium = medium_of(*frame.scene),
-             .camera = camera_of(*frame.scene),
-             .lights = Data(spheres.data(), spheres.size() / 4, 4),
-             .light_count = int(spheres.size() / 4)},
-            (state.parameters.kernel == Kernel::reference ? calibrated_splatting : paper_splatting)(state)};
+    const ReferenceFrame seen{.state = state,
+                              .scene = *frame.scene,
+                              .medium = medium_of(*frame.scene),
+                              .camera = camera_of(*frame.scene),
+                              .lights = Data(spheres.data(), spheres.size() / 4, 4),
+                              .light_count = int(spheres.size() / 4)};
+    Job job{seen, (state.parameters.kernel == Kernel::reference ? calibrated_splatting : paper_splatting)(state)};
     job.frame.filter.placement = state.parameters.filter.placement;
     const brume_plugin_image images[] = {frame.color,
                                          image_of(frame, use_density),

@@ -151,7 +151,7 @@ typedef struct brume_plugin_layer {
 
    Beside these, effects make what they name in `makes`. Names without images say what a picture holds: attenuated_radiance (it
    is attenuated by the medium, so later effects must not do it again), single_scattering (what the lights scatter once is added
-   to it). */
+   to it), all_scattering (whatever they scatter is). */
 typedef struct brume_plugin_product {
   uint32_t struct_size;
   uint32_t image_count;
@@ -361,6 +361,9 @@ typedef struct brume_effect {
   brume_status (*plan)(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state);
   brume_status (*execute)(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame);
   void (*destroy)(void *state); /* state may be NULL */
+
+  /* NULL: makes all that `makes` names; else whether (1 or 0) it makes number `index` of them with these parameters. */
+  uint32_t (*makes_with)(const double *parameters, uint32_t index);
 
   /* NULL, or the settings that a wish for quality chooses from: changes of the request's `parameters` (parameter_count of
      them, copied there) those that setting `index` fixes, and gives the error that 95 of 100 frames are predicted to keep below

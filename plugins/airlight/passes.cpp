@@ -1,0 +1,234 @@
+#include "passes.h"
+
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "common/passes.hpp"
+#include "settings.h"
+#include "state.h"
+
+namespace airlight {
+
+std::string_view pass_text(std::string_view name);
+
+namespace {
+
+using namespace brume_passes;
+using brume::maths_float::ivec2;
+
+constexpr brume_slot blobs_slots[] = {fetch("gaussians"),      fetch("lights"),         fetch("cells"),
+                                      fetch("cell_gaussians"), fetch("shadow_origins"), write("density")};
+static_assert(std::size(blobs_slots) == blobs::slot_count);
+
+constexpr brume_slot gather_slots[] = {fetch("depth"),
+                                       fetch("gaussian_density"),
+                                       fetch("tiles"),
+                                       fetch("gaussians"),
+                                       fetch("lights"),
+                                       fetch("tile_gaussians"),
+                                       fetch("cells"),
+                                       fetch("cell_gaussians"),
+                                       fetch("shadow_origins"),
+                                       fetch("blob_density"),
+                                       fetch("sun_table"),
+                                       fetch("environment"),
+                                       fetch("environment_table"),
+                                       write("radiance"),
+                                       write("error"),
+                                       write("distances")};
+static_assert(std::size(gather_slots) == gather::slot_count);
+
+constexpr brume_slot compose_slots[] = {fetch("color"),
+                                        fetch("density"),
+                                        fetch("density_rgb"),
+                                        fetch("radiance"),
+                                        fetch("error"),
+                                        fetch("distances"),
+                                        write("result"),
+                                        write("transmittance_out"),
+                                        write("optical_depth_out"),
+                                        write("airlight_out"),
+                                        write("airlight_error_out")};
+static_assert(std::size(compose_slots) == compose::slot_count);
+
+constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, airlight, light_count),
+                                              BRUME_CONSTANT_OF(Constants, airlight, gaussian_count),
+                                              BRUME_CONSTANT_OF(Constants, airlight, environment_order),
+                                              BRUME_CONSTANT_OF(Constants, airlight, panels),
+                                              BRUME_CONSTANT_OF(Constants, airlight, dense_from),
+                                              BRUME_CONSTANT_OF(Constants, airlight, cells),
+                                              BRUME_CONSTANT_OF(Constants, airlight, tolerance),
+                                              BRUME_CONSTANT_OF(Constants, airlight, near_radii),
+                                              BRUME_CONSTANT_OF(Constants, airlight, culled),
+                                              BRUME_CONSTANT_OF(Constants, airlight, orders),
+                                              BRUME_CONSTANT_OF(Constants, airlight, ground),
+                                              BRUME_CONSTANT(Constants, size),
+                                              BRUME_CONSTANT(Constants, light_range),
+                                              BRUME_CONSTANT(Constants, reduction)};
+
+template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
+{
+    brume_pass_desc desc = described(name, slots, constants_table, sizeof(Constants));
+    desc.grain = grain;
+    return desc;
+}
+
+brume_status create_gather(const brume_services &services, brume_host host, State &state)
+{
+    // Black layers of lights are too little work for an entry of their own.
+    brume_pass_desc desc =
+        pass(state.lit ? "gather" : "compose", gather_slots, state.parameters.tier == Tier::reference ? 1 : 4);
+    if (state.parameters.tier != Tier::reference)
+        return create(services, host, desc, "airlight_gather.comp", pass_text("airlight_gather.comp"),
+                      define("TIER", tier_of(state)), gather_rows, state.gather);
+    desc.rows = gather_reference_rows;
+    return services.create_pass(host, &desc, &state.gather);
+}
+
+class Frame {
+public:
+    Frame(const brume_services &services, brume_host host, const brume_plugin_frame &frame, const State &state)
+        : services_(services), host_(host), frame_(frame), state_(state)
+    {
+        constants_.airlight = settings_of(state, *frame.scene);
+        constants_.size = ivec2(state.width, state.height);
+        constants_.reduction = state.parameters.reduction;
+        constants_.tier = tier_of(state);
+        constants_.lit = state.lit;
+        constants_.attenuates = state.attenuates;
+    }
+
+    brume_status blobs();
+    brume_status gather_all();
+    brume_status gather_light(uint32_t light, brume_plugin_image radiance);
+    brume_status compose();
+
+private:
+    brume_plugin_image product(Product of, uint32_t index = 0) const
+    {
+        const brume_plugin_product &product = frame_.products[of];
+        return index < product.image_count ? product.images[index] : nullptr;
+    }
+    brume_status gather(const Constants &constants, brume_plugin_image radiance, brume_plugin_image error,
+                        brume_plugin_image distances);
+
+    const brume_services &services_;
+    brume_host host_;
+    const brume_plugin_frame &frame_;
+    const State &state_;
+    Constants constants_{};
+};
+
+brume_status Frame::blobs()
+{
+    using namespace airlight::blobs;
+    const int values = constants_.airlight.gaussian_count * (1 + constants_.airlight.light_count);
+    brume_plugin_image images[slot_count] = {};
+    images[gaussians] = product(product_gaussians);
+    images[lights] = product(product_lights);
+    images[cells] = state_.cells;
+    images[cell_gaussians] = state_.cell_gaussians;
+    images[shadow_origins] = state_.origins;
+    images[density] = state_.blob_density;
+    return services_.run(host_, state_.blobs, images, &constants_, BRUME_DATA_WIDTH,
+                         (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, nullptr);
+}
+
+brume_status Frame::gather(const Constants &constants, brume_plugin_image to, brume_plugin_image to_error,
+                           brume_plugin_image to_distances)
+{
+    using namespace airlight::gather;
+    brume_plugin_image images[slot_count] = {};
+    images[depth] = frame_.depth;
+    images[gaussian_density] = product(product_gaussian_density);
+    images[tiles] = product(product_gaussians, 1);
+    images[gaussians] = product(product_gaussians);
+    images[lights] = product(product_lights);
+    images[tile_gaussians] = product(product_gaussians, 2);
+    images[cells] = state_.cells;
+    images[cell_gaussians] = state_.cell_gaussians;
+    images[shadow_origins] = state_.origins;
+    images[blob_density] = state_.blob_density;
+    images[sun_table] = state_.sun_table;
+    images[environment] = state_.environment;
+    images[environment_table] = state_.environment_table;
+    images[radiance] = to;
+    images[error] = to_error;
+    images[distances] = to_distances;
+    const ivec2 grid = brume::maths_float::reduced_size(constants.size, constants.reduction);
+    return services_.run(host_, state_.gather, images, &constants, grid.x, grid.y, nullptr);
+}
+
+brume_status Frame::gather_all()
+{
+    Constants constants = constants_;
+    constants.light_range = ivec2(0, int(frame_.scene->light_count));
+    return gather(constants, state_.radiance, state_.error, state_.distances);
+}
+
+brume_status Frame::gather_light(uint32_t light, brume_plugin_image radiance)
+{
+    Constants constants = constants_;
+    constants.airlight.environment_order = 0;
+    constants.light_range = state_.lit ? ivec2(int(light), int(light) + 1) : ivec2(0);
+    constants.reduction = 1;
+    return gather(constants, radiance, nullptr, nullptr);
+}
+
+brume_status Frame::compose()
+{
+    using namespace airlight::compose;
+    brume_plugin_image images[slot_count] = {};
+    images[color] = frame_.color;
+    images[density] = product(product_density);
+    images[density_rgb] = state_.layered ? product(product_density_rgb) : nullptr;
+    images[radiance] = state_.radiance;
+    images[error] = state_.error;
+    images[distances] = state_.distances;
+    images[result] = frame_.output;
+    images[transmittance_out] = frame_.layers[layer_transmittance].image;
+    images[optical_depth_out] = frame_.layers[layer_optical_depth].image;
+    images[airlight_out] = frame_.layers[layer_airlight].image;
+    images[airlight_error_out] = frame_.layers[layer_airlight_error].image;
+    return services_.run(host_, state_.compose, images, &constants_, state_.width, state_.height, nullptr);
+}
+
+}  // namespace
+
+brume_status create_passes(const brume_services &services, brume_host host, uint32_t outputs, State &state)
+{
+    if (state.lit || (outputs & (1u << layer_light_airlight)))
+        if (brume_status s = create_gather(services, host, state))
+            return s;
+    if (state.has_blobs)
+        if (brume_status s = create(services, host, pass("blobs", blobs_slots, 1), "airlight_blobs.comp",
+                                    pass_text("airlight_blobs.comp"), "", blobs_rows, state.blobs))
+            return s;
+    return create(services, host, pass("compose", compose_slots, 8), "airlight_compose.comp",
+                  pass_text("airlight_compose.comp"),
+                  define("LIT", state.lit) + define("ATTENUATES", state.attenuates) + define("LAYERED", state.layered) +
+                      define("REDUCTION", state.parameters.reduction) + define("OUTPUTS", int(outputs)),
+                  state.layered ? compose_rows<true> : compose_rows<false>, state.compose);
+}
+
+brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)
+{
+    Frame passes(services, host, frame, state);
+    if (state.blobs_pending) {
+        if (brume_status s = passes.blobs())
+            return s;
+        state.blobs_pending = false;
+    }
+    if (state.lit)
+        if (brume_status s = passes.gather_all())
+            return s;
+    const brume_plugin_image *of_lights = frame.layers[layer_light_airlight].of_lights;
+    for (uint32_t l = 0; of_lights && l < frame.scene->light_count; ++l)
+        if (of_lights[l])
+            if (brume_status s = passes.gather_light(l, of_lights[l]))
+                return s;
+    return passes.compose();
+}
+
+}  // namespace airlight

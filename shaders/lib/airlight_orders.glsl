@@ -1,0 +1,236 @@
+// What lamps' light that has been scattered before scatters toward the camera: the orders of two and more.
+// Needs airlight_parts.glsl.
+//
+// In an endless medium of s' = sigma_a + (1 - g) sigma_s, with x = s' r and a = sigma_a / s', a lamp's fluence is I T / r^2 and its
+// net flux 4 pi I F,
+//   T = C x e^(-kappa x) + e^(-b x),   F = 1 - a int_0^x T dx = (1 - a/b) (1 + kappa x) e^(-kappa x) + a/b e^(-b x),
+// kappa^2 = 3 a s, C = 3 s (1 - a/b): diffusion from afar, and no energy lost for any b and s, which are fitted to paths
+// (lamp_calibration says how well). What is not e^(-sigma_t r) of T has been scattered, F by T is the mean cosine of its way,
+// and a lobe of Henyey-Greenstein over nothing but even light comes near the rest. Lengths along the lamp's ray count in optical
+// depths, which is all that is known of media that vary. Phase functions count by their mean cosine.
+
+// How a lamp's scattered light arrives.
+struct Rescattered {
+    float fluence;  // times r^2 / I: T - e^(-sigma_t r)
+    float cosine;   // mean, of its way and that from the lamp
+    float kappa;    // kappa x
+    float reduced;  // x
+};
+
+const float orders_depth_limit = R(1e9);
+
+// Optical depths of scattering and of absorption between the lamp and the point.
+PURE Rescattered rescattered(float scattering, float absorption, float asymmetry)
+{
+    float s = min(scattering, orders_depth_limit);
+    float d = min(absorption, orders_depth_limit);
+    float reduced = (R(1.0) - asymmetry) * s;
+    float x = d + reduced;
+    float a = d / max(x, R(1e-30));
+    float g = max(asymmetry, R(0.0));
+    float slowing = R(1.0) - a * (R(0.6) - R(0.126) * g * (R(1.0) - a));
+    float b = a + (R(1.0) - a) * (R(1.455) + g * (R(1.277) - R(0.468) * g) - a * (R(0.568) - R(0.853) * g));
+    float far = R(1.0) - a / b;
+    float kx = x * sqrt(R(3.0) * a * slowing);
+    vec2 diffuse = parted(kx);
+    vec2 near = parted(b * x);
+    vec2 straight = parted(s + d);
+    // Shallow, differences of what is gone, deep, of what is left: each is as small as they are.
+    bool shallow = s + d < R(1.0);
+    float fluence = R(3.0) * slowing * far * x * diffuse.x + (shallow ? straight.y - near.y : near.x - straight.x);
+    float flux = shallow ? straight.y - far * (diffuse.y - kx * diffuse.x) - (R(1.0) - far) * near.y
+                         : far * (R(1.0) + kx) * diffuse.x + (R(1.0) - far) * near.x - straight.x;
+    return Rescattered(max(fluence, R(0.0)), clamp(flux / max(fluence, R(1e-30)), R(0.0), R(1.0)), kx, x);
+}
+
+// A plane that ends the medium and takes what falls on it: xyz its normal toward the medium, w the camera's height above it. None
+// where the normal is 0. What the plane gives back is the picture's light.
+PURE float height_above(vec4 ground, vec3 point)
+{
+    return max(dot(vec3(ground.x, ground.y, ground.z), point) + ground.w, R(0.0));
+}
+
+// What a black plane leaves of that fluence, by the lamp's image in a plane below it. distance, lamp, point: of the two from each
+// other and from the plane; extinction: sigma_t r.
+PURE float left_by_ground(IN(Rescattered) light, float extinction, float distance, float lamp, float point)
+{
+    float per_length = light.reduced / max(distance, R(1e-20));
+    float x = exp(R(0.54) * log(max(extinction, R(1e-30)) / max(light.reduced, R(1e-30)))) *
+              (light.reduced + R(1.65) * per_length * (lamp + point));
+    float below = R(0.72) * x / ((x + R(0.9)) * max(per_length, R(1e-20)));
+    float aside = max(distance * distance - (lamp - point) * (lamp - point), R(0.0));
+    float up = lamp + point + R(2.0) * below;
+    float ratio = sqrt(aside + up * up) / max(distance, R(1e-20));
+    if (!(ratio < R(1e15)))
+        return R(1.0);
+    return clamp(R(1.0) - exp(-light.kappa * max(ratio - R(1.0), R(0.0))) / max(ratio, R(1.0)), R(0.0), R(1.0));
+}
+
+// Share of the scattered light, per steradian, that one more scattering turns into a direction at this cosine from the way from
+// the lamp. With the weight and the g that light arrives with, its mean cosine is kept and the next moment is near.
+PURE float turned_again(float asymmetry, float mean_cosine, float cosine)
+{
+    float k = sqrt(mean_cosine);
+    return k * henyey_greenstein(asymmetry * k, cosine) + (R(1.0) - k) / (R(4.0) * pi);
+}
+
+// What a spot's scattered light has of its intensity at this cosine from its axis: part keeps to the cone, part spreads from its
+// axis; as much in all as it emits. mean_cosine as above: where it is 0 the cone is forgotten.
+PURE float spot_spread(IN(Light) light, float mean_cosine, float cosine)
+{
+    float rim = R(0.5) * (light.cos_inner + light.cos_outer);
+    float kept = mean_cosine > R(0.0) ? exp(R(1.7) * log(mean_cosine)) : R(0.0);
+    float lobe = R(0.5) * (R(1.0) + rim) * mean_cosine / (R(1.0) + mean_cosine);
+    return kept * spot_factor(light, cosine) +
+           (R(1.0) - kept) * R(0.5) * (R(1.0) - rim) * R(4.0) * pi * henyey_greenstein(lobe, cosine);
+}
+
+// The source toward the camera at t over sigma_s: what parallel light does is not among it, since it has no end. depth: int rho
+// dt between light and point.
+PURE vec3 rescattered_strength(IN(Medium) medium, IN(Light) light, IN(Aspect) aspect, vec4 ground, vec3 direction, float t,
+                               float depth)
+{
+    if (light.type == light_directional)
+        return vec3(R(0.0));
+    vec3 from = t * direction - light.position;
+    float x = t - aspect.foot;
+    float d = sqrt(aspect.height * aspect.height + x * x);
+    float strength = fluence(d, light.radius);
+    float off_axis = dot(from, light.direction) / max(length(from), R(1e-20));
+    bool grounded = ground.x != R(0.0) || ground.y != R(0.0) || ground.z != R(0.0);
+    float lamp = grounded ? height_above(ground, light.position) : R(0.0);
+    float point = grounded ? height_above(ground, t * direction) : R(0.0);
+    vec3 sum = vec3(R(0.0));
+    for (int c = 0; c < 3; ++c) {
+        if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1]) {
+            sum[c] = sum[c - 1];
+            continue;
+        }
+        float scattering = min(medium.scattering[c] * depth, orders_depth_limit);
+        float absorption = min(medium.absorption[c] * depth, orders_depth_limit);
+        Rescattered r = rescattered(scattering, absorption, medium.asymmetry);
+        float share = R(1.0);
+        float cosine = r.cosine;
+        if (grounded) {
+            share = left_by_ground(r, scattering + absorption, d, lamp, point);
+            // It takes first what goes far aside.
+            cosine = min(cosine / max(sqrt(share), R(1e-6)), R(1.0));
+        }
+        sum[c] = r.fluence * share * turned_again(medium.asymmetry, cosine, -x / d);
+        if (light.type == light_spot)
+            sum[c] *= spot_spread(light, r.cosine, off_axis);
+    }
+    return min(strength * sum, vec3(radiance_limit)) * light.intensity;
+}
+
+// The integral over a part of the medium along a path's z in [z, z + dz].
+PURE Panel orders_panel(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES, sampler2D tile_gaussians,
+                        IN(Sight) sight, int index, IN(Light) light, IN(Aspect) aspect, int part, IN(Path) path, float z, float dz)
+{
+    float t[8];
+    float p[8];
+    float mass[8];
+    for (int k = 0; k < panel_nodes; ++k) {
+        float x = k < 4 ? -panel_node[3 - k] : panel_node[k - 4];
+        vec2 node = on_path(path, z + dz * (R(0.5) + R(0.5) * x));
+        t[k] = clamp(node.x, R(0.0), sight.distance);
+        p[k] = density_integral(medium, sight.direction, t[k]);
+        mass[k] = min(node.y * dz * (part == part_terms ? density_at(medium, t[k] * sight.direction) : R(1.0)), radiance_limit);
+    }
+    vec3 scattering = medium.scattering;
+    for (int i = 0; i < sight.count; ++i) {
+        Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
+        Profile profile = sight_profile(medium, camera, g, sight.direction);
+        float before = erf(-profile.scale * profile.middle);
+        float depth = R(0.886226925453) * profile_length(profile);
+        for (int k = 0; k < panel_nodes; ++k)
+            p[k] += depth * (erf(profile.scale * (t[k] - profile.middle)) - before);
+        if (i == part) {
+            scattering *= g.colour;
+            for (int k = 0; k < panel_nodes; ++k)
+                mass[k] = min(mass[k] * profile_density(profile, t[k]), radiance_limit);
+        }
+    }
+    vec3 sum = vec3(R(0.0));
+    float value[8];
+    for (int k = 0; k < panel_nodes; ++k) {
+        vec3 f = vec3(R(0.0));
+        if (mass[k] > R(0.0)) {
+            vec3 point = t[k] * sight.direction;
+            float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, index, light, point);
+            f = rescattered_strength(medium, light, aspect, settings.ground, sight.direction, t[k],
+                                     clamp(depth, R(0.0), density_limit));
+            f = min(min(f, vec3(radiance_limit)) * mass[k], vec3(radiance_limit)) *
+                transmittance(medium, clamp(p[k], R(0.0), density_limit));
+            f = min(f * scattering, vec3(radiance_limit));
+        }
+        value[k] = (f.x + f.y + f.z) / R(3.0);
+        sum += panel_weight[k < 4 ? 3 - k : k - 4] * f;
+    }
+    vec2 rest = panel_rest(value);
+    return Panel(sum, rest.x * rest.y, rest.x * rest.y * rest.y);
+}
+
+// All that a lamp's scattered light adds to the ray, beside what the ray has already. It falls off as 1 / r from the lamp, which
+// t = foot + h sinh(z) flattens.
+PURE Airlight lamp_orders(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES,
+                          sampler2D tile_gaussians, IN(Sight) sight, int index, IN(Light) light, vec3 terms, vec3 beside)
+{
+    Airlight sum = Airlight(vec3(R(0.0)), vec3(R(0.0)));
+    if (light.type == light_directional)
+        return sum;
+    Aspect aspect = aspect_of(light, sight.direction);
+    float h = max(aspect.height, light.radius);
+    float others = (beside.x + beside.y + beside.z) / R(3.0);
+    for (int part = part_terms; part < sight.count; ++part) {
+        vec2 range = vec2(terms.x, terms.y);
+        float middle = aspect.foot;
+        float width = h;
+        if (part != part_terms) {
+            Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, part);
+            float center = sight_profile(medium, camera, g, sight.direction).middle;
+            float radius = R(1.0) / g.scale;
+            range = vec2(max(center - R(4.0) * radius, R(0.0)), min(center + R(4.0) * radius, min(sight.distance, quadrature_limit)));
+            float x = max(max(range.x - aspect.foot, aspect.foot - range.y), R(0.0));
+            if (max(h, x) > settings.near_radii * radius) {
+                middle = center;
+                width = R(1.2) * radius;
+            }
+        }
+        if (range.x >= range.y)
+            continue;
+        Path path = bell_path(middle, width, range.x, range.y);
+        int left = settings.panels;
+        float z = R(0.0);
+        float dz = R(1.0);
+        while (z < R(1.0)) {
+            Panel panel =
+                orders_panel(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, index, light, aspect, part, path, z, dz);
+            --left;
+            vec3 so_far = sum.radiance + panel.sum;
+            if (panel.doubt > settings.tolerance * (others + (so_far.x + so_far.y + so_far.z) / R(3.0)) && left > 0) {
+                dz *= R(0.5);
+                continue;
+            }
+            sum.radiance += panel.sum;
+            sum.error += vec3(panel.error);
+            z += dz;
+            dz = left > 1 ? min(R(2.0) * dz, R(1.0) - z) : R(1.0) - z;
+        }
+    }
+    return sum;
+}
+
+PURE Airlight orders_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_IMAGES, IN(Sight) sight,
+                              int first_light, int last_light, vec3 single)
+{
+    vec3 terms = medium.constant > R(0.0) || medium.term_count > 0 ? terms_range(medium, sight) : vec3(R(0.0));
+    Airlight sum = Airlight(vec3(R(0.0)), vec3(R(0.0)));
+    for (int l = first_light; l < last_light; ++l) {
+        Airlight one = lamp_orders(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, l, light_at(lights, l), terms,
+                                   single + sum.radiance);
+        sum.radiance += one.radiance;
+        sum.error += one.error;
+    }
+    return sum;
+}
