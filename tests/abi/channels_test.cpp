@@ -123,7 +123,8 @@ TEST_P(Channels, OfAllImagesInOnePixel)
     for_samples(1, [&](int x, int y, int) { pixels.at(x, y, 3) = depth.get(x, y, 0); });
     const brume_image transmittance = pixels.image(7, 3);
     const brume_layer of_transmittance = layer("transmittance", &transmittance);
-    ASSERT_EQ(run(pixels.image(0, 3), pixels.image(3, 1), pixels.image(4, 3), &of_transmittance), BRUME_OK) << message(context.get());
+    ASSERT_EQ(run(pixels.image(0, 3), pixels.image(3, 1), pixels.image(4, 3), &of_transmittance), BRUME_OK)
+        << message(context.get());
     for_samples(3, [&](int x, int y, int c) {
         ASSERT_EQ(pixels.at(x, y, c), color.get(x, y, c)) << x << ", " << y;
         ASSERT_EQ(pixels.at(x, y, 4 + c), expected.get(x, y, c)) << x << ", " << y;

@@ -207,14 +207,12 @@ TEST_P(Images, OverlapIsRefused)
 
 TEST_P(Images, ExtraOutputsShareNoMemory)
 {
-    Plan with_outputs =
-        make_plan(context, scene, ray_format(width, height, {layer("transmittance"), layer("blur_radius")}));
+    Plan with_outputs = make_plan(context, scene, ray_format(width, height, {layer("transmittance"), layer("blur_radius")}));
     Picture color = painted({}), depth = painted_depth(), output(width, height), straight(width, height),
             radius(width, height, {.channels = 1});
     const auto with = [&](const Picture &transmittance, const Picture &blur_radius) {
         const brume_image a = transmittance.image(), b = blur_radius.image();
-        return execute(with_outputs.get(), color, depth, output,
-                       {layer("transmittance", &a), layer("blur_radius", &b)});
+        return execute(with_outputs.get(), color, depth, output, {layer("transmittance", &a), layer("blur_radius", &b)});
     };
     EXPECT_EQ(with(straight, radius), BRUME_OK) << message(context.get());
     expect_status(context.get(), with(color, radius), BRUME_ERROR_ARGUMENT, "outputs[0]");
@@ -225,8 +223,7 @@ TEST_P(Images, ExtraOutputsShareNoMemory)
     const brume_image whole = straight.image();
     expect_status(
         context.get(),
-        execute(with_outputs.get(), color, depth, output,
-                {layer("transmittance", &whole), layer("blur_radius", &within)}),
+        execute(with_outputs.get(), color, depth, output, {layer("transmittance", &whole), layer("blur_radius", &within)}),
         BRUME_ERROR_ARGUMENT, "outputs[1]");
 }
 

@@ -84,7 +84,8 @@ TEST_P(Layers, FormatsNameThemOnceAndRight)
                    "format.inputs[1]: no effect reads a layer \"optical_dept\"; did you mean \"optical_depth\"?");
     format_refused({}, {layer("scattered")}, BRUME_ERROR_UNSUPPORTED, "no effect reads a layer \"scattered\"");
     format_refused({}, {layer("optical_depth"), layer("transmittance")}, BRUME_ERROR_ARGUMENT, "expected one of the two");
-    format_refused({layer("scattered"), layer("scattered")}, {}, BRUME_ERROR_ARGUMENT, "outputs[1] (scattered): given twice");
+    format_refused({layer("scattered"), layer("scattered")}, {}, BRUME_ERROR_ARGUMENT,
+                   "outputs[1] (scattered): given twice");
     format_refused({}, {layer("optical_depth"), layer("optical_depth")}, BRUME_ERROR_ARGUMENT,
                    "inputs[1] (optical_depth): given twice");
     format_refused({layer(nullptr)}, {}, BRUME_ERROR_ARGUMENT, "outputs[0].name: NULL");
@@ -101,8 +102,8 @@ TEST_P(Layers, FramesBringWhatTheFormatNames)
     const brume_image tau_image = tau.image(), straight_image = straight.image();
     ASSERT_EQ(execute(first.get(), color, depth, output, {layer("optical_depth", &tau_image)}), BRUME_OK)
         << message(context.get());
-    Plan plan = make_plan(context, scene,
-                          ray_format(width, height, {layer("transmittance"), layer("blur_radius")}, {layer("optical_depth")}));
+    Plan plan = make_plan(
+        context, scene, ray_format(width, height, {layer("transmittance"), layer("blur_radius")}, {layer("optical_depth")}));
     using List = std::vector<brume_layer>;
     const auto refused = [&](const List &outputs, const List &inputs, brume_status status, const std::string &part) {
         expect_status(context.get(), execute(plan.get(), color, depth, output, outputs, inputs), status, part);

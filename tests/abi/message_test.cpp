@@ -74,7 +74,8 @@ TEST_F(Messages, HaveTheValueGiven)
     format_refused([](auto &f) { f.depth_kind = 9; }, "brume_format.depth_kind: 9; expected");
     format_refused([](auto &f) { f.sky = 9; }, "brume_format.sky: 9; expected");
     format_refused([](auto &f) { f.nonpositive = 9; }, "brume_format.nonpositive: 9; expected");
-    format_refused([](auto &f) { f.output_count = 1u << 30; }, "brume_format.outputs: 1073741824 layers; expected 0 to 8192");
+    format_refused([](auto &f) { f.output_count = 1u << 30; },
+                   "brume_format.outputs: 1073741824 layers; expected 0 to 8192");
     format_refused([](auto &f) { f.input_count = 3; }, "brume_format.inputs: NULL; expected 3 layers");
     format_refused([](auto &f) { f.far_distance = -2.5; }, "brume_format.far_distance: -2.5; expected");
     format_refused(

@@ -165,7 +165,8 @@ TEST_P(Outputs, LayersAreWhatTheySay)
     Scene scene = make_scene(context, R"({"brume": 1, "camera": {"vertical_fov": 50},
         "medium": {"scattering": [0.01, 0.02, 0.03], "absorption": [0.002, 0.001, 0], "emission": 0.01, "g": 0.5}})");
     const char *const names[] = {"transmittance", "optical_depth", "scattered", "blur_radius"};
-    Plan plan = make_plan(context, scene, ray_format(width, height, {layer(names[0]), layer(names[1]), layer(names[2]), layer(names[3])}));
+    Plan plan = make_plan(context, scene,
+                          ray_format(width, height, {layer(names[0]), layer(names[1]), layer(names[2]), layer(names[3])}));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             if (std::isinf(depth.get(x, y, 0)))
@@ -298,8 +299,7 @@ TEST_P(Outputs, OfLightsOnePicturePerLight)
         "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}, "effects": {"airlight": {}}, "lights": [
         {"type": "point", "position": [1,0,-9], "intensity": [30,0,0]},
         {"type": "point", "position": [-1,0,-9], "intensity": [0,30,0]}]})");
-    Plan plan =
-        make_plan(context, scene, ray_format(width, height, {layer("transmittance"), layer("light_airlight")}));
+    Plan plan = make_plan(context, scene, ray_format(width, height, {layer("transmittance"), layer("light_airlight")}));
     Picture first(width, height, {.channels = 3}), second(width, height, {.channels = 3});
     const brume_image first_image = first.image(), second_image = second.image();
     const auto of_light = [](uint32_t light, const brume_image *image) {

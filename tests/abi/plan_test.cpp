@@ -230,13 +230,11 @@ TEST_P(Plans, ImagesMustFit)
     expect_status(context.get(), execute(plan.get(), color, depth, flipped), BRUME_ERROR_ARGUMENT, "output.origin");
 
     const brume_image wide_image = wide.image(), good = wide.image();
-    expect_status(context.get(),
-                  execute(plan.get(), color, depth, output, {layer("transmittance", &wide_image)}),
+    expect_status(context.get(), execute(plan.get(), color, depth, output, {layer("transmittance", &wide_image)}),
                   BRUME_ERROR_FORMAT, "transmittance: 17 x 12");
     expect_status(context.get(), execute(plan.get(), color, depth, output, {layer("scattered", &good)}),
                   BRUME_ERROR_ARGUMENT, "outputs[0] (scattered)");
-    expect_status(context.get(),
-                  execute(plan.get(), color, depth, output, {layer("transmittance", nullptr)}),
+    expect_status(context.get(), execute(plan.get(), color, depth, output, {layer("transmittance", nullptr)}),
                   BRUME_ERROR_ARGUMENT, "outputs[0] (transmittance).image");
 
     // A new plan for the new format is all that it takes.
@@ -327,8 +325,7 @@ TEST_P(Plans, MemoryDoesNotGrowOnceWarm)
     for (int made = 0; made < 5; ++made) {
         Plan plan = make_plan(context, scene, ray_format(96, 64, {layer("transmittance")}));
         for (int frame = 0; frame < 20; ++frame) {
-            ASSERT_EQ(execute(plan.get(), color, depth, output, {layer("transmittance", &layer_image)}),
-                      BRUME_OK)
+            ASSERT_EQ(execute(plan.get(), color, depth, output, {layer("transmittance", &layer_image)}), BRUME_OK)
                 << message(context.get());
             if (made == 0 && frame == 1)
                 warm = bytes();

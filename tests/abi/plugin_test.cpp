@@ -221,6 +221,7 @@ TEST(ThirdParty, CpuOnlyEffectOnGlSaysSo)
     Scene scene = make_scene(context, scene_with("well_behaved"));
     const brume_format format = ray_format(4, 4);
     brume_plan plan = nullptr;
-    expect_status(context.get(), brume_plan_create(scene.get(), &format, &plan), BRUME_ERROR_UNSUPPORTED, "CPU backend only");
+    expect_status(context.get(), brume_plan_create(scene.get(), &format, &plan), BRUME_ERROR_UNSUPPORTED,
+                  "CPU backend only");
 }
 #endif

@@ -29,7 +29,8 @@ protected:
     void same_as_new(const std::string &from, const std::string &to)
     {
         Scene first = make_scene(context, from), second = make_scene(context, to);
-        Plan plan = make_plan(context, first, ray_format(width, height)), fresh = make_plan(context, second, ray_format(width, height));
+        Plan plan = make_plan(context, first, ray_format(width, height)),
+             fresh = make_plan(context, second, ray_format(width, height));
         const Picture before = frame(plan), expected = frame(fresh);
         EXPECT_NE(before.memory(), expected.memory()) << "nothing to tell the scenes apart";
         ASSERT_EQ(brume_plan_update(plan.get(), second.get(), nullptr), BRUME_OK) << message(context.get());
@@ -86,7 +87,8 @@ TEST_P(Updates, OfTheKernelsOfThePaper)
 TEST_P(Updates, OfLightsAndGaussians)
 {
     same_as_new(lit, replaced(replaced(lit, "[-1,0.5,-6]", "[1.5,-0.5,-9]"), "[0.05, 0.06, 0.07]", "[0.09, 0.06, 0.05]"));
-    same_as_new(lit, replaced(lit, "\"lights\": [", R"("lights": [{"type": "spot", "position": [2,3,-7], "direction": [0,-1,0],
+    same_as_new(lit,
+                replaced(lit, "\"lights\": [", R"("lights": [{"type": "spot", "position": [2,3,-7], "direction": [0,-1,0],
         "intensity": [50,20,10]},)"));
     same_as_new(lit, replaced(lit, "{\"type\": \"gaussian\",", R"({"type": "gaussian", "center": [-2,1,-5], "scale": 1,
         "amplitude": 3}, {"type": "gaussian",)"));
@@ -135,14 +137,20 @@ TEST_P(Updates, OfAnotherStructureAreRefused)
     const std::string thin = R"({"brume": 1, "camera": {"vertical_fov": 50}, "medium": {"scattering": 0.02}})";
     refused(thin, R"({"brume": 1})", "medium: 1 when planned, 0 now");
     refused(thin, replaced(thin, "0.02", "[0.02, 0.02, 0]"), "medium.scattering[2] above 0: 1 when planned, 0 now");
-    refused(thin, replaced(thin, "0.02", "0.02, \"absorption\": 0.01"), "medium.absorption[0] above 0: 0 when planned, 1 now");
+    refused(thin, replaced(thin, "0.02", "0.02, \"absorption\": 0.01"),
+            "medium.absorption[0] above 0: 0 when planned, 1 now");
     refused(thin, replaced(thin, "0.02", "0.02, \"emission\": 0.01"), "medium.emission[0] above 0: 0 when planned, 1 now");
     refused(thin, replaced(thin, "0.02", "[0.02, 0.03, 0.04]"), "grey scattering: 1 when planned, 0 now");
     refused(lit, replaced(lit, "\"absorption\": 0.01", "\"absorption\": [0.01, 0.02, 0.03]"), "grey absorption");
     refused(lit, replaced(lit, "{\"type\": \"constant\", \"value\": 0.5},", ""), "constant density");
     refused(foggy, replaced(foggy, "\"falloff\": 0.2", "\"falloff\": 0"), "exponential density: 1 when planned, 0 now");
-    refused(lit, replaced(lit, ",\n                           {\"type\": \"gaussian\", \"center\": [1,0,-8], \"scale\": 0.5, \"amplitude\": 2}", ""),
-            "Gaussians");
+    refused(
+        lit,
+        replaced(
+            lit,
+            ",\n                           {\"type\": \"gaussian\", \"center\": [1,0,-8], \"scale\": 0.5, \"amplitude\": 2}",
+            ""),
+        "Gaussians");
     refused(lit, replaced(lit, "\"lights\"", "\"environment\": {\"sh\": [[1,1,1]]}, \"lights\""),
             "environment coefficients: 0 when planned, 1 now");
     const std::string sky = replaced(lit, "\"lights\"", "\"environment\": {\"sh\": [[1,1,1]]}, \"lights\"");

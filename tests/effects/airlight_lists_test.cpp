@@ -16,7 +16,8 @@ protected:
     brume_context context() { return backend(GetParam()); }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, ListsOn, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, ListsOn, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 // int rho dt of each pixel between the sum over those that matter and that over all.
 void hold_optical_depth(brume_context context, const Json &scene, int width, int height, const Window &window,
@@ -134,8 +135,8 @@ TEST_P(ListsOn, ManyGaussians)
             g.scale = 0.05 * std::cbrt(double(count)) * std::exp(u(random));
             g.amplitude = 1;
         }
-        const Plan plan(context(), scene.dump(), 12, 8,
-                        Options{{}, {"airlight", "airlight_error"}}, [&](brume_scene changed) {
+        const Plan plan(context(), scene.dump(), 12, 8, Options{{}, {"airlight", "airlight_error"}},
+                        [&](brume_scene changed) {
                             brume_density_term term = BRUME_DENSITY_TERM_INIT;
                             term.value = 0.1;
                             brume_medium medium = BRUME_MEDIUM_INIT;
@@ -146,8 +147,7 @@ TEST_P(ListsOn, ManyGaussians)
                             medium.gaussian_count = count;
                             Context::check(brume_scene_set_medium(changed, &medium), context());
                         });
-        const Result r =
-            plan.execute(frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}});
+        const Result r = plan.execute(frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}});
         for (float v : r.airlight.data)
             ASSERT_TRUE(std::isfinite(v) && v > 0) << count;
         for (float v : r.output.data)

@@ -28,7 +28,8 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, AirlightOn, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, AirlightOn, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 Json in_tier(Json scene, const std::string &tier)
 {
@@ -131,8 +132,7 @@ TEST_P(AirlightOn, TransmittanceIsThatOfMultiscatter)
     for (const auto &[name, scene, tiers] : scenes()) {
         Json other = scene;
         other["effects"] = {{"multiscatter", Json::object()}};
-        const Result a = fogged(scene, frame),
-                     b = fogged(other, frame, {"transmittance", "optical_depth"});
+        const Result a = fogged(scene, frame), b = fogged(other, frame, {"transmittance", "optical_depth"});
         const Worst transmittance = compare(a.transmittance, b.transmittance, 1e-3),
                     optical_depth = compare(a.optical_depth, b.optical_depth, 1e-3);
         EXPECT_LE(transmittance.error, rounding()) << name << " " << transmittance.describe();
@@ -199,8 +199,7 @@ TEST_P(AirlightOn, AVisibleLampIsCountedOnce)
         const double lit = lamp * (1 - std::exp(-tau));
         Json alone = scene;
         alone["effects"].erase("airlight");
-        const Result both = fogged(scene, frame, joined(shown, {"scattered"})),
-                     one = fogged(alone, frame, {"scattered"});
+        const Result both = fogged(scene, frame, joined(shown, {"scattered"})), one = fogged(alone, frame, {"scattered"});
         double airlight = sum(both.airlight) / 3, rest = sum(both.scattered) / 3, all = sum(one.scattered) / 3;
         printf(
             "tau %.1f: of what is scattered (%.0f) multiscatter alone brings %.3f; beside the airlight's %.3f (tau e^-tau: "

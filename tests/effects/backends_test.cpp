@@ -86,7 +86,8 @@ TEST(GpuAgainstCpu, WholeFilterWithinItsBound)
                   "\"separation\":true", "\"levels\":3"}) {
                 Frame f = random_frame(w, h, 2);
                 const std::string all = std::string("\"kernel\":\"paper\"") + (*parameters ? "," : "") + parameters;
-                auto a = run(gpu(), scene(medium, all), f.color, f.depth), b = run(cpu(), scene(medium, all), f.color, f.depth);
+                auto a = run(gpu(), scene(medium, all), f.color, f.depth),
+                     b = run(cpu(), scene(medium, all), f.color, f.depth);
                 Worst found = compare(a.output, b.output, 0.05);
                 worst = std::max(worst, found.error);
                 EXPECT_LT(found.error, bound)

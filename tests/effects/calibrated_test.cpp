@@ -243,13 +243,13 @@ TEST_P(Calibrated, FarLightsDoNotShineThroughNearSurfaces)
             depth.at(x, y)[0] = 0.01f;
     color.at(w / 2 + 3, h / 2)[0] = 1000;
     const Picture scattered =
-        run(context(), scene("\"scattering\":0.03,\"g\":0.8", kernel), color, depth, {{}, {"scattered"}, 0})
-            .scattered;
+        run(context(), scene("\"scattering\":0.03,\"g\":0.8", kernel), color, depth, {{}, {"scattered"}, 0}).scattered;
     EXPECT_GT(scattered.at(w / 2 + 8, h / 2)[0], 0.1);
     EXPECT_LT(scattered.at(w / 2 - 2, h / 2)[0], 1e-3 * scattered.at(w / 2 + 8, h / 2)[0]);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Calibrated, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, Calibrated, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 // The reference shares the spread and the arrived fraction with the kernel, but neither pyramid nor tables by level.
 TEST(CalibratedReference, WhiteFurnaceAndEnergyOfOnePixel)
@@ -295,8 +295,8 @@ TEST(GpuAgainstCpu, KernelCalibratedInEveryWidth)
         for (const char *quality : {"", ",\"resolution\":\"half\""}) {
             const Picture color = random_lights(w, 5, 2), depth = random_depth(w, 5, 5);
             const std::string text = scene(clear_media[0], kernel + quality);
-            const Worst found = compare(run(backend("gl"), text, color, depth).output, run(cpu(), text, color, depth).output,
-                                        0.05);
+            const Worst found =
+                compare(run(backend("gl"), text, color, depth).output, run(cpu(), text, color, depth).output, 0.05);
             EXPECT_LT(found.error, 1e-4) << w << " " << quality << " " << found.describe();
         }
 }

@@ -79,7 +79,8 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Filter, Backends, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Filter, Backends, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 TEST_P(Backends, ConstantDepthIsBeersLaw)
 {
@@ -120,12 +121,12 @@ TEST_P(Backends, WhiteFurnace)
                     d = u(random) < 0.2f ? INFINITY : 100 * u(random);
                 auto r = run(context(),
                              paper_scene("\"scattering\":0.02,\"g\":0.3",
-                                   plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
+                                         plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                              color, depth, {{}, {"transmittance"}, 0});
                 // Depths differ per pixel, so L_sc varies; what is uniform is L. Only where all depths agree is L' = L.
                 auto same = run(context(),
                                 paper_scene("\"scattering\":0.02,\"g\":0.3",
-                                      plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
+                                            plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                                 color, constant_depth(w, h, 40), {ray_depth});
                 Worst worst = compare(same.output, color, 1e-3);
                 EXPECT_LT(worst.error, 2e-6) << w << "x" << h << " " << size << " " << fetch << " " << worst.describe();
@@ -157,7 +158,7 @@ TEST_P(Backends, EnergyBalanceOfOnePixel)
                     color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
                     auto r = run(context(),
                                  paper_scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9",
-                                       plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
+                                             plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
                                  color, constant_depth(w, h, 20), {ray_depth, {"scattered"}, 0});
                     double expected = 1000 * -std::expm1(-sigma * 20);
                     EXPECT_NEAR(sum(r.scattered, 0) / expected, 1, 2e-3)
@@ -209,7 +210,8 @@ TEST(Reference, IsRefusedOnGlWithTheReason)
     if (!gl())
         throw std::runtime_error("no GL backend");
     try {
-        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"paper_reference\""), Picture(4, 4, 4, 1), constant_depth(4, 4, 1));
+        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"paper_reference\""), Picture(4, 4, 4, 1),
+            constant_depth(4, 4, 1));
         FAIL() << "expected a refusal";
     } catch (const Failure &failure) {
         EXPECT_EQ(failure.status, BRUME_ERROR_UNSUPPORTED);
@@ -289,12 +291,11 @@ TEST_P(Backends, CropWithMarginEqualsTheWhole)
         }
     std::string s = paper_scene("\"scattering\":0.02,\"g\":0.9", "\"levels\":4");
     auto whole = run(context(), s, color, depth);
-    auto part = run(context(), s, crop, crop_depth,
-                    {[&](brume_format &f) {
-                         f.display_x = -margin;
-                         f.display_width = w;
-                         f.display_height = h;
-                     }});
+    auto part = run(context(), s, crop, crop_depth, {[&](brume_format &f) {
+                        f.display_x = -margin;
+                        f.display_width = w;
+                        f.display_height = h;
+                    }});
     double error = 0;
     for (int y = 0; y < ch - 64; ++y)
         for (int x = 64; x < cw - 64; ++x)
@@ -308,8 +309,8 @@ TEST_P(Backends, ThePictureDoesNotDriftWhereSizesAreOdd)
     for (int size : {255, 256, 257, 333}) {
         Picture color(size, size, 4, 0);
         color.at(size / 2, size / 2)[0] = 1000;
-        auto r = run(context(), paper_scene("\"scattering\":0.01,\"g\":0.9", plain_filter), color, constant_depth(size, size, 20),
-                     {ray_depth, {"scattered"}, 0});
+        auto r = run(context(), paper_scene("\"scattering\":0.01,\"g\":0.9", plain_filter), color,
+                     constant_depth(size, size, 20), {ray_depth, {"scattered"}, 0});
         double m0 = 0, mx = 0, my = 0;
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
@@ -332,10 +333,10 @@ TEST_P(Backends, DensityTimesCrossSectionIsAllThatCounts)
             depth.at(x, y)[0] = 400;
     Options blur{{}, {"blur_radius"}, 0};
     auto one = run(context(), paper_scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7"), color, depth, blur);
-    auto two =
-        run(context(),
-            paper_scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
-            color, depth, blur);
+    auto two = run(
+        context(),
+        paper_scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
+        color, depth, blur);
     auto limit = run(
         context(),
         paper_scene(
@@ -380,8 +381,7 @@ TEST_P(Backends, SkyOptions)
     Picture color(8, 8, 4, 1), depth = constant_depth(8, 8, INFINITY);
     std::string s = paper_scene("\"absorption\":0.1");
     EXPECT_EQ(run(context(), s, color, depth).output.at(3, 3)[0], 0.0f);
-    EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }}).output.at(3, 3)[0],
-              1.0f);
+    EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }}).output.at(3, 3)[0], 1.0f);
     auto clamped = run(context(), s, color, depth,
                        {[](brume_format &f) {
                             f.sky = BRUME_SKY_CLAMP;
@@ -420,8 +420,8 @@ TEST_P(Backends, FewerLevelsCapTheBlur)
     Picture color(100, 60, 4, 0), depth = constant_depth(100, 60, 50);
     color.at(20, 30)[0] = 1000;
     auto far_away = [&](int levels) {
-        auto r = run(context(), paper_scene("\"scattering\":0.05", plain_filter + ",\"levels\":" + std::to_string(levels)), color,
-                     depth, {ray_depth, {"scattered"}, 0});
+        auto r = run(context(), paper_scene("\"scattering\":0.05", plain_filter + ",\"levels\":" + std::to_string(levels)),
+                     color, depth, {ray_depth, {"scattered"}, 0});
         EXPECT_GT(r.scattered.at(20, 30)[0], 0);
         return r.scattered.at(60, 30)[0];
     };

@@ -274,4 +274,5 @@ TEST(Overscan, ALampThatLeaves)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Motion, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, Motion, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });

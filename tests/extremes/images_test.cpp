@@ -42,7 +42,8 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Extremes, Images, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Extremes, Images, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 // One of the images of a frame, as floats or halves.
 struct Stored {

@@ -153,9 +153,8 @@ TEST_F(Programs, PassesSampleAndChain)
     backend->invoke([&] {
         const brume_image from = host_image(const_cast<float *>(source.data()), 2, 1, 4);
         const brume_image to = host_image(result.data(), 2, 1, 4);
-        const std::vector<brume_slot> slots = {{"not there", BRUME_ACCESS_FETCH, 0},
-                                               {"source", BRUME_ACCESS_LINEAR, 0},
-                                               {"target", BRUME_ACCESS_WRITE, 0}};
+        const std::vector<brume_slot> slots = {
+            {"not there", BRUME_ACCESS_FETCH, 0}, {"source", BRUME_ACCESS_LINEAR, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
         const std::vector<brume_constant> constants = {{"unused", BRUME_CONSTANT_FLOAT, 1, 1, 0},
                                                        {"offset", BRUME_CONSTANT_FLOAT, 2, 2, offsetof(Constants, offset)}};
         const auto blend = make_pass(*backend, describe("blend", slots, constants, sizeof(Constants), R"(
@@ -182,7 +181,8 @@ TEST_F(Programs, MistakesOfEffectsAreNamed)
     const std::string good = storing("texelFetch(source, ivec2(0), 0) * factor + vec4(float(count))",
                                      "uniform sampler2D source;\nuniform float factor;\nuniform int count;");
     const std::vector<brume_slot> slots = {{"result", BRUME_ACCESS_WRITE, 0}, {"source", BRUME_ACCESS_FETCH, 0}};
-    const std::vector<brume_constant> constants = {{"factor", BRUME_CONSTANT_FLOAT, 1, 1, 0}, {"count", BRUME_CONSTANT_INT, 1, 1, 4}};
+    const std::vector<brume_constant> constants = {{"factor", BRUME_CONSTANT_FLOAT, 1, 1, 0},
+                                                   {"count", BRUME_CONSTANT_INT, 1, 1, 4}};
     using Slots = std::vector<brume_slot>;
     using Constants = std::vector<brume_constant>;
     const auto failure = [&](const Slots &s, const Constants &c, const std::string &source) {
@@ -194,13 +194,15 @@ TEST_F(Programs, MistakesOfEffectsAreNamed)
         EXPECT_NE(got.message.find(part), std::string::npos) << "no \"" << part << "\" in " << got.message;
     };
     EXPECT_EQ(failure(slots, constants, good).message, "");
-    refused({slots[0]}, constants, BRUME_ERROR_ARGUMENT, "declares sampler2D source, which is not among the slots of pass \"p\"");
+    refused({slots[0]}, constants, BRUME_ERROR_ARGUMENT,
+            "declares sampler2D source, which is not among the slots of pass \"p\"");
     refused({slots[1]}, constants, BRUME_ERROR_ARGUMENT, "declares image2D result, which is not among the slots");
     refused({slots[0], {"source", BRUME_ACCESS_WRITE, 0}}, constants, BRUME_ERROR_ARGUMENT,
             "declares source as sampler2D; pass \"p\" has a slot for writing there");
     refused({{"result", BRUME_ACCESS_LINEAR, 0}, slots[1]}, constants, BRUME_ERROR_ARGUMENT,
             "declares result as image2D; pass \"p\" has a slot for reading there");
-    refused(slots, {constants[0]}, BRUME_ERROR_ARGUMENT, "declares int count, which is not among the constants of pass \"p\"");
+    refused(slots, {constants[0]}, BRUME_ERROR_ARGUMENT,
+            "declares int count, which is not among the constants of pass \"p\"");
     refused(slots, {{"factor", BRUME_CONSTANT_INT, 1, 1, 0}, constants[1]}, BRUME_ERROR_ARGUMENT,
             "declares factor as float; pass \"p\" has ints of 1 components there");
     refused(slots, {{"factor", BRUME_CONSTANT_FLOAT, 2, 1, 0}, {"count", BRUME_CONSTANT_INT, 1, 1, 0}}, BRUME_ERROR_ARGUMENT,
@@ -326,7 +328,8 @@ TEST_F(Programs, Timers)
 
 TEST_F(Programs, PassesWithoutAShaderAreRefused)
 {
-    const Failure got = failure_of([&] { backend->invoke([&] { make_pass(*backend, describe("p", {}, {}, 0, nullptr)); }); });
+    const Failure got =
+        failure_of([&] { backend->invoke([&] { make_pass(*backend, describe("p", {}, {}, 0, nullptr)); }); });
     EXPECT_EQ(got.status, BRUME_ERROR_UNSUPPORTED);
     EXPECT_NE(got.message.find("pass \"p\" has no shader"), std::string::npos) << got.message;
     EXPECT_EQ(failure_of([&] { backend->flush(); }).status, BRUME_ERROR_INTERNAL) << "outside invoke()";

@@ -48,8 +48,8 @@ std::shared_ptr<Pass> make_pass(Backend &backend, const brume_pass_desc &desc)
     return backend.create_pass(desc, layout_of(desc));
 }
 
-brume_pass_desc describe(const char *name, const std::vector<brume_slot> &slots, const std::vector<brume_constant> &constants,
-                         uint32_t constant_size, const char *source)
+brume_pass_desc describe(const char *name, const std::vector<brume_slot> &slots,
+                         const std::vector<brume_constant> &constants, uint32_t constant_size, const char *source)
 {
     brume_pass_desc desc{};
     desc.struct_size = sizeof desc;

@@ -29,8 +29,8 @@ brume_image texture_image(GLuint texture, int32_t width, int32_t height, uint32_
 std::shared_ptr<Pass> make_pass(Backend &backend, const brume_pass_desc &desc);
 
 // What a pass of the tests has: a name, slots, constants and a shader.
-brume_pass_desc describe(const char *name, const std::vector<brume_slot> &slots, const std::vector<brume_constant> &constants,
-                         uint32_t constant_size, const char *source);
+brume_pass_desc describe(const char *name, const std::vector<brume_slot> &slots,
+                         const std::vector<brume_constant> &constants, uint32_t constant_size, const char *source);
 
 // to = from * factor, pixel by pixel; the pass's shader samples `from` by `access`.
 void scale(Backend &backend, Image &from, Image &to, float factor, uint32_t access = BRUME_ACCESS_FETCH);
