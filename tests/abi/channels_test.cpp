@@ -16,7 +16,7 @@ protected:
             return;
         paint(color);
         paint_depth(depth);
-        plan = make_plan(context, make_scene(context, foggy), ray_format(width, height, BRUME_OUTPUT_TRANSMITTANCE));
+        plan = make_plan(context, make_scene(context, foggy), ray_format(width, height, {layer("transmittance")}));
     }
 
     // What packed images of `channels` give.
@@ -40,14 +40,14 @@ protected:
                     function(x, y, c);
     }
     brume_status run(const brume_image &from, const brume_image &z, const brume_image &to,
-                     const brume_extra_output *extra = nullptr)
+                     const brume_layer *layer = nullptr)
     {
         brume_frame frame = BRUME_FRAME_INIT;
         frame.color = &from;
         frame.depth = &z;
         frame.output = &to;
-        frame.extra_count = extra ? 1 : 0;
-        frame.extra = extra;
+        frame.output_count = layer ? 1 : 0;
+        frame.outputs = layer;
         return brume_plan_execute(plan.get(), &frame);
     }
 
@@ -122,8 +122,9 @@ TEST_P(Channels, OfAllImagesInOnePixel)
     for_samples(3, [&](int x, int y, int c) { pixels.at(x, y, c) = color.get(x, y, c); });
     for_samples(1, [&](int x, int y, int) { pixels.at(x, y, 3) = depth.get(x, y, 0); });
     const brume_image transmittance = pixels.image(7, 3);
-    const brume_extra_output extra = extra_output(BRUME_OUTPUT_TRANSMITTANCE, &transmittance);
-    ASSERT_EQ(run(pixels.image(0, 3), pixels.image(3, 1), pixels.image(4, 3), &extra), BRUME_OK) << message(context.get());
+    const brume_layer of_transmittance = layer("transmittance", &transmittance);
+    ASSERT_EQ(run(pixels.image(0, 3), pixels.image(3, 1), pixels.image(4, 3), &of_transmittance), BRUME_OK)
+        << message(context.get());
     for_samples(3, [&](int x, int y, int c) {
         ASSERT_EQ(pixels.at(x, y, c), color.get(x, y, c)) << x << ", " << y;
         ASSERT_EQ(pixels.at(x, y, 4 + c), expected.get(x, y, c)) << x << ", " << y;

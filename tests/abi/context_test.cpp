@@ -183,9 +183,12 @@ TEST(Null, ArgumentsAreNamed)
     frame.color = &images[0];
     frame.depth = &images[1];
     frame.output = &images[2];
-    frame.extra_count = 1;
-    refused(brume_plan_execute(plan.get(), &frame), "extra");
-    frame.extra_count = 0;
+    frame.output_count = 1;
+    refused(brume_plan_execute(plan.get(), &frame), "outputs: NULL");
+    frame.output_count = 0;
+    frame.input_count = 1;
+    refused(brume_plan_execute(plan.get(), &frame), "inputs: NULL");
+    frame.input_count = 0;
     frame.frame = NAN;
     refused(brume_plan_execute(plan.get(), &frame), "frame");
 }

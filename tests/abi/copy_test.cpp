@@ -122,9 +122,9 @@ TEST_P(Copies, ToHalfKeepFiniteValuesFinite)
 }
 
 // The outputs that were asked for are filled although the picture needs nothing; where no effect can, planning fails.
-TEST_P(Copies, ExtraOutputsOfNothing)
+TEST_P(Copies, OutputLayersOfNothing)
 {
-    const uint32_t outputs = BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_SCATTERED;
+    const std::vector<brume_layer> outputs{layer("transmittance"), layer("scattered")};
     for (const char *text : nothing) {
         SCOPED_TRACE(text);
         Scene scene = make_scene(context, text);
@@ -141,8 +141,7 @@ TEST_P(Copies, ExtraOutputsOfNothing)
         paint_depth(depth);
         const brume_image transmittance_image = transmittance.image(), scattered_image = scattered.image();
         ASSERT_EQ(execute(plan.get(), color, depth, output,
-                          {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &transmittance_image),
-                           extra_output(BRUME_OUTPUT_SCATTERED, &scattered_image)}),
+                          {layer("transmittance", &transmittance_image), layer("scattered", &scattered_image)}),
                   BRUME_OK)
             << message(context.get());
         expect_same_bits(color, output);

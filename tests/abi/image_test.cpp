@@ -207,27 +207,24 @@ TEST_P(Images, OverlapIsRefused)
 
 TEST_P(Images, ExtraOutputsShareNoMemory)
 {
-    Plan with_outputs =
-        make_plan(context, scene, ray_format(width, height, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_BLUR_RADIUS));
-    Picture color = painted({}), depth = painted_depth(), output(width, height), extra(width, height),
+    Plan with_outputs = make_plan(context, scene, ray_format(width, height, {layer("transmittance"), layer("blur_radius")}));
+    Picture color = painted({}), depth = painted_depth(), output(width, height), straight(width, height),
             radius(width, height, {.channels = 1});
     const auto with = [&](const Picture &transmittance, const Picture &blur_radius) {
         const brume_image a = transmittance.image(), b = blur_radius.image();
-        return execute(with_outputs.get(), color, depth, output,
-                       {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &a), extra_output(BRUME_OUTPUT_BLUR_RADIUS, &b)});
+        return execute(with_outputs.get(), color, depth, output, {layer("transmittance", &a), layer("blur_radius", &b)});
     };
-    EXPECT_EQ(with(extra, radius), BRUME_OK) << message(context.get());
-    expect_status(context.get(), with(color, radius), BRUME_ERROR_ARGUMENT, "extra[0]");
-    expect_status(context.get(), with(output, radius), BRUME_ERROR_ARGUMENT, "extra[0]");
-    expect_status(context.get(), with(extra, depth), BRUME_ERROR_ARGUMENT, "extra[1]");
+    EXPECT_EQ(with(straight, radius), BRUME_OK) << message(context.get());
+    expect_status(context.get(), with(color, radius), BRUME_ERROR_ARGUMENT, "outputs[0]");
+    expect_status(context.get(), with(output, radius), BRUME_ERROR_ARGUMENT, "outputs[0]");
+    expect_status(context.get(), with(straight, depth), BRUME_ERROR_ARGUMENT, "outputs[1]");
     brume_image within = radius.image();
-    within.data = extra.image().data;
-    const brume_image whole = extra.image();
+    within.data = straight.image().data;
+    const brume_image whole = straight.image();
     expect_status(
         context.get(),
-        execute(with_outputs.get(), color, depth, output,
-                {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &whole), extra_output(BRUME_OUTPUT_BLUR_RADIUS, &within)}),
-        BRUME_ERROR_ARGUMENT, "extra[1]");
+        execute(with_outputs.get(), color, depth, output, {layer("transmittance", &whole), layer("blur_radius", &within)}),
+        BRUME_ERROR_ARGUMENT, "outputs[1]");
 }
 
 TEST_P(Images, OddSizes)

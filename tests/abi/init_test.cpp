@@ -59,7 +59,8 @@ TEST(Init, FillsWhatTheMacroSays)
     CHECK(brume_plan_info, BRUME_PLAN_INFO_INIT);
     CHECK(brume_plan_entry, BRUME_PLAN_ENTRY_INIT);
     CHECK(brume_image, BRUME_IMAGE_INIT);
-    CHECK(brume_extra_output, BRUME_EXTRA_OUTPUT_INIT);
+    CHECK(brume_layer, BRUME_LAYER_INIT);
+    CHECK(brume_layer_info, BRUME_LAYER_INFO_INIT);
     CHECK(brume_frame, BRUME_FRAME_INIT);
     CHECK(brume_media_info, BRUME_MEDIA_INFO_INIT);
     CHECK(brume_media_view, BRUME_MEDIA_VIEW_INIT);

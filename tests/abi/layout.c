@@ -56,6 +56,14 @@ FIELD(brume_parameter_info, unit, 40, 8);
 FIELD(brume_parameter_info, help, 48, 8);
 FIELD(brume_parameter_info, choices, 56, 8);
 
+SIZE(brume_layer_info, 32);
+FIELD(brume_layer_info, struct_size, 0, 4);
+FIELD(brume_layer_info, flags, 4, 4);
+FIELD(brume_layer_info, channels, 8, 4);
+FIELD(brume_layer_info, reserved, 12, 4);
+FIELD(brume_layer_info, name, 16, 8);
+FIELD(brume_layer_info, help, 24, 8);
+
 SIZE(brume_density_term, 72);
 FIELD(brume_density_term, struct_size, 0, 4);
 FIELD(brume_density_term, type, 4, 4);
@@ -116,7 +124,7 @@ FIELD(brume_camera, pixel_aspect, 16, 8);
 FIELD(brume_camera, center, 24, 16);
 FIELD(brume_camera, camera_to_world, 40, 128);
 
-SIZE(brume_format, 80);
+SIZE(brume_format, 96);
 FIELD(brume_format, struct_size, 0, 4);
 FIELD(brume_format, width, 4, 4);
 FIELD(brume_format, height, 8, 4);
@@ -128,10 +136,12 @@ FIELD(brume_format, depth_kind, 28, 4);
 FIELD(brume_format, depth_range, 32, 16);
 FIELD(brume_format, far_distance, 48, 8);
 FIELD(brume_format, sky, 56, 4);
-FIELD(brume_format, outputs, 60, 4);
+FIELD(brume_format, input_count, 60, 4);
 FIELD(brume_format, sky_distance, 64, 8);
 FIELD(brume_format, nonpositive, 72, 4);
-FIELD(brume_format, reserved, 76, 4);
+FIELD(brume_format, output_count, 76, 4);
+FIELD(brume_format, inputs, 80, 8);
+FIELD(brume_format, outputs, 88, 8);
 
 SIZE(brume_quality, 40);
 FIELD(brume_quality, struct_size, 0, 4);
@@ -177,22 +187,26 @@ FIELD(brume_image, pixel_stride, 40, 8);
 FIELD(brume_image, row_stride, 48, 8);
 FIELD(brume_image, plane_stride, 56, 8);
 
-SIZE(brume_extra_output, 24);
-FIELD(brume_extra_output, struct_size, 0, 4);
-FIELD(brume_extra_output, output, 4, 4);
-FIELD(brume_extra_output, image, 8, 8);
-FIELD(brume_extra_output, light, 16, 4);
-FIELD(brume_extra_output, reserved, 20, 4);
+SIZE(brume_layer, 32);
+FIELD(brume_layer, struct_size, 0, 4);
+FIELD(brume_layer, kind, 4, 4);
+FIELD(brume_layer, name, 8, 8);
+FIELD(brume_layer, image, 16, 8);
+FIELD(brume_layer, light, 24, 4);
+FIELD(brume_layer, reserved, 28, 4);
 
-SIZE(brume_frame, 56);
+SIZE(brume_frame, 72);
 FIELD(brume_frame, struct_size, 0, 4);
-FIELD(brume_frame, extra_count, 4, 4);
+FIELD(brume_frame, input_count, 4, 4);
 FIELD(brume_frame, color, 8, 8);
 FIELD(brume_frame, depth, 16, 8);
 FIELD(brume_frame, output, 24, 8);
-FIELD(brume_frame, extra, 32, 8);
-FIELD(brume_frame, camera, 40, 8);
-FIELD(brume_frame, frame, 48, 8);
+FIELD(brume_frame, inputs, 32, 8);
+FIELD(brume_frame, outputs, 40, 8);
+FIELD(brume_frame, output_count, 48, 4);
+FIELD(brume_frame, reserved, 52, 4);
+FIELD(brume_frame, camera, 56, 8);
+FIELD(brume_frame, frame, 64, 8);
 
 SIZE(brume_media_info, 24);
 FIELD(brume_media_info, struct_size, 0, 4);
@@ -284,7 +298,8 @@ void brume_test_initialisers(void)
   brume_plan_info plan_info = BRUME_PLAN_INFO_INIT;
   brume_plan_entry plan_entry = BRUME_PLAN_ENTRY_INIT;
   brume_image image = BRUME_IMAGE_INIT;
-  brume_extra_output extra_output = BRUME_EXTRA_OUTPUT_INIT;
+  brume_layer layer = BRUME_LAYER_INIT;
+  brume_layer_info layer_info = BRUME_LAYER_INFO_INIT;
   brume_frame frame = BRUME_FRAME_INIT;
   brume_media_info media_info = BRUME_MEDIA_INFO_INIT;
   brume_media_view media_view = BRUME_MEDIA_VIEW_INIT;
@@ -294,7 +309,7 @@ void brume_test_initialisers(void)
   brume_media_emitter media_emitter = BRUME_MEDIA_EMITTER_INIT;
   brume_media_airbrush media_airbrush = BRUME_MEDIA_AIRBRUSH_INIT;
   (void)context_desc, (void)context_info, (void)effect_info, (void)parameter_info, (void)density_term, (void)medium;
-  (void)camera, (void)format, (void)plan_info, (void)plan_entry, (void)image, (void)extra_output, (void)frame;
+  (void)camera, (void)format, (void)plan_info, (void)plan_entry, (void)image, (void)layer, (void)layer_info, (void)frame;
   (void)gaussian, (void)light, (void)scene_info;
   (void)media_info, (void)media_view, (void)media_stroke, (void)media_paint, (void)media_erase, (void)media_emitter;
   (void)media_airbrush;

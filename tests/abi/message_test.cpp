@@ -74,7 +74,9 @@ TEST_F(Messages, HaveTheValueGiven)
     format_refused([](auto &f) { f.depth_kind = 9; }, "brume_format.depth_kind: 9; expected");
     format_refused([](auto &f) { f.sky = 9; }, "brume_format.sky: 9; expected");
     format_refused([](auto &f) { f.nonpositive = 9; }, "brume_format.nonpositive: 9; expected");
-    format_refused([](auto &f) { f.outputs = 1u << 30; }, "brume_format.outputs: 1073741824; expected");
+    format_refused([](auto &f) { f.output_count = 1u << 30; },
+                   "brume_format.outputs: 1073741824 layers; expected 0 to 8192");
+    format_refused([](auto &f) { f.input_count = 3; }, "brume_format.inputs: NULL; expected 3 layers");
     format_refused([](auto &f) { f.far_distance = -2.5; }, "brume_format.far_distance: -2.5; expected");
     format_refused(
         [](auto &f) {
@@ -131,7 +133,14 @@ TEST_F(Messages, HaveTheValueGiven)
 
 TEST_F(Messages, ReservedFieldsAreZero)
 {
-    format_refused([](auto &f) { f.reserved = 7; }, "brume_format.reserved: 7; expected 0");
+    brume_layer reserved = layer("transmittance");
+    reserved.reserved = 7;
+    format_refused(
+        [&](auto &f) {
+            f.output_count = 1;
+            f.outputs = &reserved;
+        },
+        "brume_format.outputs[0].reserved: 7; expected 0");
 
     brume_medium medium = BRUME_MEDIUM_INIT;
     brume_gaussian gaussians[2] = {BRUME_GAUSSIAN_INIT, BRUME_GAUSSIAN_INIT};
@@ -140,12 +149,18 @@ TEST_F(Messages, ReservedFieldsAreZero)
     medium.gaussian_count = 2;
     refused(brume_scene_set_medium(scene.get(), &medium), "gaussians[1].reserved: 7; expected 0");
 
-    Plan with_extra = make_plan(context, scene, ray_format(4, 3, BRUME_OUTPUT_TRANSMITTANCE));
+    Plan with_layer = make_plan(context, scene, ray_format(4, 3, {layer("transmittance")}));
     Picture output(4, 3), transmittance(4, 3);
     const brume_image image = transmittance.image();
-    brume_extra_output extra = extra_output(BRUME_OUTPUT_TRANSMITTANCE, &image);
-    extra.reserved = 7;
-    refused(execute(with_extra.get(), color, depth, output, {extra}), "extra[0].reserved: 7; expected 0");
+    reserved.image = &image;
+    refused(execute(with_layer.get(), color, depth, output, {reserved}), "outputs[0].reserved: 7; expected 0");
+    const brume_image color_image = color.image(), depth_image = depth.image(), output_image = output.image();
+    brume_frame frame = BRUME_FRAME_INIT;
+    frame.color = &color_image;
+    frame.depth = &depth_image;
+    frame.output = &output_image;
+    frame.reserved = 7;
+    refused(brume_plan_execute(with_layer.get(), &frame), "brume_frame.reserved: 7; expected 0");
 
     brume_media media = nullptr;
     ASSERT_EQ(brume_media_create(context.get(), &media), BRUME_OK);

@@ -1,4 +1,4 @@
-/* A program that was built against the header of 0.1 and runs with today's library. Compiled with that header only. */
+/* A program that was built against the header of 0.2 and runs with today's library. Compiled with that header only. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,8 +32,8 @@ static void fog_three_pixels(brume_scene scene)
     float color[12], depth[3] = {10, 20, 30}, output[12], transmittance[9];
     brume_format format = BRUME_FORMAT_INIT;
     brume_image color_image = BRUME_IMAGE_INIT, depth_image = BRUME_IMAGE_INIT, output_image = BRUME_IMAGE_INIT;
-    brume_image extra_image = BRUME_IMAGE_INIT;
-    brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
+    brume_image transmittance_image = BRUME_IMAGE_INIT;
+    brume_layer layer = BRUME_LAYER_INIT;
     brume_frame frame = BRUME_FRAME_INIT;
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     brume_plan plan;
@@ -43,31 +43,34 @@ static void fog_three_pixels(brume_scene scene)
     format.width = 3;
     format.height = 1;
     format.depth_kind = BRUME_DEPTH_RAY;
-    format.outputs = BRUME_OUTPUT_TRANSMITTANCE;
+    layer.name = "transmittance";
+    format.outputs = &layer;
+    format.output_count = 1;
     check(brume_plan_create(scene, &format, &plan), "plan");
     check(brume_plan_get_info(plan, &info), "plan info");
     expect(info.does_nothing == 0 && info.entry_count > 0, "the plan does something");
-    color_image.width = depth_image.width = output_image.width = extra_image.width = 3;
-    color_image.height = depth_image.height = output_image.height = extra_image.height = 1;
+    color_image.width = depth_image.width = output_image.width = transmittance_image.width = 3;
+    color_image.height = depth_image.height = output_image.height = transmittance_image.height = 1;
     color_image.data = color;
     depth_image.data = depth;
     depth_image.channels = 1;
     output_image.data = output;
-    extra_image.data = transmittance;
-    extra_image.channels = 3;
-    extra.output = BRUME_OUTPUT_TRANSMITTANCE;
-    extra.image = &extra_image;
+    transmittance_image.data = transmittance;
+    transmittance_image.channels = 3;
+    layer.image = &transmittance_image;
     frame.color = &color_image;
     frame.depth = &depth_image;
     frame.output = &output_image;
-    frame.extra = &extra;
-    frame.extra_count = 1;
+    frame.outputs = &layer;
+    frame.output_count = 1;
     check(brume_plan_execute(plan, &frame), "execute");
     for (i = 0; i < 3; ++i) {
         expect(fabs(transmittance[3 * i] - exp(-0.1 * depth[i])) < 1e-6, "transmittance is exp(-tau)");
         expect(fabs(output[4 * i] - 0.5 * exp(-0.1 * depth[i])) < 1e-6, "the pixel is attenuated");
         expect(output[4 * i + 3] == 0.5f, "alpha is unchanged");
     }
+    check(brume_plan_update(plan, scene, &format), "update");
+    check(brume_plan_execute(plan, &frame), "execute after the update");
     brume_plan_destroy(plan);
 }
 
@@ -77,6 +80,7 @@ int main(void)
     brume_context_info context_info = BRUME_CONTEXT_INFO_INIT;
     brume_effect_info effect = BRUME_EFFECT_INFO_INIT;
     brume_parameter_info parameter = BRUME_PARAMETER_INFO_INIT;
+    brume_layer_info layer = BRUME_LAYER_INFO_INIT;
     brume_density_term term = BRUME_DENSITY_TERM_INIT;
     brume_medium medium = BRUME_MEDIUM_INIT;
     brume_camera camera = BRUME_CAMERA_INIT;
@@ -85,13 +89,15 @@ int main(void)
     brume_scene scene;
     uint32_t given;
 
-    expect(brume_version() >= 100, "the library is not older than this program");
+    expect(brume_version() >= 200, "the library is not older than this program");
     desc.backend = BRUME_BACKEND_CPU;
     check(brume_context_create(&desc, &context), "context");
     check(brume_context_get_info(context, &context_info), "context info");
     expect(brume_effect_count(context) > 0, "there are effects");
     check(brume_effect_get_info(context, 0, &effect), "effect info");
     check(brume_parameter_get_info(context, "multiscatter", 0, &parameter), "parameter info");
+    expect(brume_layer_count(context, NULL) > 0, "there are layers");
+    check(brume_layer_get_info(context, NULL, 0, &layer), "layer info");
 
     check(brume_scene_create_from_text(context, text, strlen(text), "old", &scene), "scene from text");
     fog_three_pixels(scene);

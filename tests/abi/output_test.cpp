@@ -1,4 +1,4 @@
-// What comes out: alpha, components that are not finite, half limits, extra outputs.
+// What comes out: alpha, components that are not finite, half limits, output layers.
 #include <limits>
 
 #include "support.h"
@@ -97,7 +97,7 @@ TEST_P(Outputs, ClampedValuesAreCountedAndWarnedOfOnce)
     };
     Context counting = make_context(desc);
     Scene scene = make_scene(counting, R"({"brume": 1, "medium": {"absorption": 1e-9}})");
-    Plan plan = make_plan(counting, scene, ray_format(width, height, BRUME_OUTPUT_OPTICAL_DEPTH));
+    Plan plan = make_plan(counting, scene, ray_format(width, height, {layer("optical_depth")}));
     Picture half(width, height, {.pixel = BRUME_PIXEL_F16}), tau(width, height, {.channels = 3, .pixel = BRUME_PIXEL_F16});
     const auto clamped = [&] {
         brume_plan_info info = BRUME_PLAN_INFO_INIT;
@@ -124,8 +124,9 @@ TEST_P(Outputs, ClampedValuesAreCountedAndWarnedOfOnce)
         EXPECT_NE(warnings[0].find("3 values beyond 65504"), std::string::npos) << warnings[0];
     }
 
-    // Those of further outputs are counted with them: 1e-9 / m over 1e15 m are more than halves hold.
-    brume_format format = ray_format(width, height, BRUME_OUTPUT_OPTICAL_DEPTH);
+    // Those of output layers are counted with them: 1e-9 / m over 1e15 m are more than halves hold.
+    const std::vector<brume_layer> tau_layer{layer("optical_depth")};
+    brume_format format = ray_format(width, height, tau_layer);
     format.sky = BRUME_SKY_CLAMP;
     format.sky_distance = 1e15;
     plan = make_plan(counting, scene, format);
@@ -135,7 +136,7 @@ TEST_P(Outputs, ClampedValuesAreCountedAndWarnedOfOnce)
         for (int x = 0; x < width; ++x)
             sky += std::isinf(depth.get(x, y, 0));
     const brume_image tau_image = tau.image();
-    ASSERT_EQ(execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_OPTICAL_DEPTH, &tau_image)}), BRUME_OK)
+    ASSERT_EQ(execute(plan.get(), color, depth, output, {layer("optical_depth", &tau_image)}), BRUME_OK)
         << message(counting.get());
     EXPECT_EQ(clamped(), counts ? int64_t(3 * sky) : -1);
     EXPECT_EQ(tau.get(0, 0, 0), 65504.0f);
@@ -159,13 +160,13 @@ TEST_P(Outputs, HugeRadianceStaysFinite)
     }
 }
 
-TEST_P(Outputs, ExtraOutputsAreWhatTheySay)
+TEST_P(Outputs, LayersAreWhatTheySay)
 {
     Scene scene = make_scene(context, R"({"brume": 1, "camera": {"vertical_fov": 50},
         "medium": {"scattering": [0.01, 0.02, 0.03], "absorption": [0.002, 0.001, 0], "emission": 0.01, "g": 0.5}})");
-    const uint32_t all =
-        BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS;
-    Plan plan = make_plan(context, scene, ray_format(width, height, all));
+    const char *const names[] = {"transmittance", "optical_depth", "scattered", "blur_radius"};
+    Plan plan = make_plan(context, scene,
+                          ray_format(width, height, {layer(names[0]), layer(names[1]), layer(names[2]), layer(names[3])}));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             if (std::isinf(depth.get(x, y, 0)))
@@ -173,10 +174,10 @@ TEST_P(Outputs, ExtraOutputsAreWhatTheySay)
     Picture transmittance(width, height), tau(width, height, {.channels = 3}), scattered(width, height),
         radius(width, height, {.channels = 1}), plain(width, height);
     const brume_image images[] = {transmittance.image(), tau.image(), scattered.image(), radius.image()};
-    std::vector<brume_extra_output> extra;
+    std::vector<brume_layer> layers;
     for (uint32_t i = 0; i < 4; ++i)
-        extra.push_back(extra_output(1u << i, &images[i]));
-    ASSERT_EQ(execute(plan.get(), color, depth, output, extra), BRUME_OK) << message(context.get());
+        layers.push_back(layer(names[i], &images[i]));
+    ASSERT_EQ(execute(plan.get(), color, depth, output, layers), BRUME_OK) << message(context.get());
     const double sigma_t[] = {0.012, 0.021, 0.03};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -194,22 +195,21 @@ TEST_P(Outputs, ExtraOutputsAreWhatTheySay)
     // A frame may take none or some of the outputs; the picture is the same.
     ASSERT_EQ(execute(plan.get(), color, depth, plain), BRUME_OK) << message(context.get());
     expect_same_bits(output, plain);
-    ASSERT_EQ(execute(plan.get(), color, depth, plain, {extra[2]}), BRUME_OK) << message(context.get());
+    ASSERT_EQ(execute(plan.get(), color, depth, plain, {layers[2]}), BRUME_OK) << message(context.get());
     expect_same_bits(output, plain);
 }
 
-TEST_P(Outputs, ExtraOutputsInAnyLayout)
+TEST_P(Outputs, LayersInAnyLayout)
 {
     Scene scene = make_scene(context, foggy);
-    Plan plan = make_plan(context, scene, ray_format(width, height, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_BLUR_RADIUS));
+    Plan plan = make_plan(context, scene, ray_format(width, height, {layer("transmittance"), layer("blur_radius")}));
     const auto outputs_in = [&](Layout layout) {
         Layout scalar = layout;
         scalar.channels = 1;
         std::pair<Picture, Picture> pictures{Picture(width, height, layout), Picture(width, height, scalar)};
         const brume_image transmittance = pictures.first.image(), radius = pictures.second.image();
         EXPECT_EQ(execute(plan.get(), color, depth, output,
-                          {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &transmittance),
-                           extra_output(BRUME_OUTPUT_BLUR_RADIUS, &radius)}),
+                          {layer("transmittance", &transmittance), layer("blur_radius", &radius)}),
                   BRUME_OK)
             << message(context.get());
         EXPECT_TRUE(pictures.first.guards_untouched() && pictures.second.guards_untouched());
@@ -299,14 +299,13 @@ TEST_P(Outputs, OfLightsOnePicturePerLight)
         "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}, "effects": {"airlight": {}}, "lights": [
         {"type": "point", "position": [1,0,-9], "intensity": [30,0,0]},
         {"type": "point", "position": [-1,0,-9], "intensity": [0,30,0]}]})");
-    Plan plan =
-        make_plan(context, scene, ray_format(width, height, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_LIGHT_AIRLIGHT));
+    Plan plan = make_plan(context, scene, ray_format(width, height, {layer("transmittance"), layer("light_airlight")}));
     Picture first(width, height, {.channels = 3}), second(width, height, {.channels = 3});
     const brume_image first_image = first.image(), second_image = second.image();
     const auto of_light = [](uint32_t light, const brume_image *image) {
-        brume_extra_output extra = extra_output(BRUME_OUTPUT_LIGHT_AIRLIGHT, image);
-        extra.light = light;
-        return extra;
+        brume_layer of = layer("light_airlight", image);
+        of.light = light;
+        return of;
     };
     ASSERT_EQ(execute(plan.get(), color, depth, output, {of_light(1, &second_image), of_light(0, &first_image)}), BRUME_OK)
         << message(context.get());
@@ -319,13 +318,13 @@ TEST_P(Outputs, OfLightsOnePicturePerLight)
         }
     }
 
-    const auto refused = [&](const std::vector<brume_extra_output> &extra, const char *named) {
-        expect_status(context.get(), execute(plan.get(), color, depth, output, extra), BRUME_ERROR_ARGUMENT, named);
+    const auto refused = [&](const std::vector<brume_layer> &layers, const char *named) {
+        expect_status(context.get(), execute(plan.get(), color, depth, output, layers), BRUME_ERROR_ARGUMENT, named);
     };
-    refused({of_light(2, &first_image)}, "extra[0].light: 2");
-    refused({of_light(0, &first_image), of_light(0, &second_image)}, "extra[1].output: given twice");
-    brume_extra_output misplaced = extra_output(BRUME_OUTPUT_TRANSMITTANCE, &first_image);
+    refused({of_light(2, &first_image)}, "outputs[0] (light_airlight): light 2; expected an index below 2");
+    refused({of_light(0, &first_image), of_light(0, &second_image)}, "outputs[1] (light_airlight): given twice");
+    brume_layer misplaced = layer("transmittance", &first_image);
     misplaced.light = 1;
-    refused({misplaced}, "extra[0].light: 1");
-    refused(std::vector<brume_extra_output>(6 + BRUME_MAX_LIGHTS + 1, of_light(0, &first_image)), "extra_count: 4103");
+    refused({misplaced}, "outputs[0] (transmittance): light 1; expected 0");
+    refused(std::vector<brume_layer>(BRUME_MAX_LAYERS + 1, of_light(0, &first_image)), "outputs: 8193 layers");
 }

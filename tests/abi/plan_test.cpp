@@ -50,7 +50,8 @@ TEST_P(Plans, EntriesHaveReasons)
     ASSERT_GE(i.entry_count, 2u);
     for (uint32_t k = 0; k < i.entry_count; ++k) {
         const brume_plan_entry e = entry(plan, k);
-        EXPECT_STREQ(e.effect, e.runs || std::string(e.name) != "airlight" ? "multiscatter" : "airlight");
+        const std::string name = e.name;
+        EXPECT_STREQ(e.effect, name == "density" ? "brume" : name == "airlight" && !e.runs ? "airlight" : "multiscatter");
         EXPECT_STRNE(e.name, "");
         EXPECT_STRNE(e.reason, "");
         EXPECT_LT(e.measured_ms, 0.0);
@@ -99,9 +100,9 @@ TEST_P(Plans, DropWhatTheSceneDoesNotNeed)
                 names += std::string(e.name) + " ";
         return names;
     };
-    EXPECT_EQ(names(only_absorption, true), "compose ");
+    EXPECT_EQ(names(only_absorption, true), "density compose ");
     EXPECT_EQ(names(only_absorption, false), "airlight pyramid ");
-    EXPECT_EQ(names(foggy, true), "scatter downsample smooth compose ");
+    EXPECT_EQ(names(foggy, true), "density scatter downsample smooth compose ");
     EXPECT_EQ(names(foggy, false), "airlight ");
     std::string with_setting = foggy;
     with_setting.insert(with_setting.rfind('}'), ",\"effects\":{\"multiscatter\":{\"masking\":false}}");
@@ -146,7 +147,8 @@ TEST_P(Plans, FormatRefusesNonsense)
         {[](auto &f) { f.display_width = -10, f.display_height = 10; }, "display_width"},
         {[](auto &f) { f.depth_kind = 5; }, "depth_kind"},
         {[](auto &f) { f.sky = 3; }, "sky"},
-        {[](auto &f) { f.outputs = 128; }, "outputs"},
+        {[](auto &f) { f.output_count = BRUME_MAX_LAYERS + 1; }, "outputs"},
+        {[](auto &f) { f.input_count = 1; }, "inputs"},
         {[](auto &f) { f.far_distance = 0; }, "far_distance"},
         {[](auto &f) { f.far_distance = NAN; }, "far_distance"},
         {[](auto &f) { f.depth_kind = BRUME_DEPTH_NORMALIZED, f.depth_range[1] = INFINITY; }, "depth_range"},
@@ -167,7 +169,7 @@ TEST_P(Plans, FormatRefusesNonsense)
 TEST_P(Plans, OutputsThatNothingFills)
 {
     Scene empty = make_scene(context, R"({"brume": 1})");
-    refused(empty, ray_format(8, 8, BRUME_OUTPUT_TRANSMITTANCE), BRUME_ERROR_UNSUPPORTED, "outputs");
+    refused(empty, ray_format(8, 8, {layer("transmittance")}), BRUME_ERROR_UNSUPPORTED, "outputs");
 }
 
 TEST_P(Plans, MissingCameraSaysWhy)
@@ -217,7 +219,7 @@ TEST_P(Plans, MissingCameraSaysWhy)
 TEST_P(Plans, ImagesMustFit)
 {
     Scene scene = make_scene(context, foggy);
-    Plan plan = make_plan(context, scene, ray_format(16, 12, BRUME_OUTPUT_TRANSMITTANCE));
+    Plan plan = make_plan(context, scene, ray_format(16, 12, {layer("transmittance")}));
     Picture color(16, 12), depth(16, 12, {.channels = 1}), output(16, 12), wide(17, 12), low_depth(16, 11, {.channels = 1});
     Picture three(16, 12, {.channels = 3}), flipped(16, 12, {.bottom_up = true});
     expect_status(context.get(), execute(plan.get(), wide, depth, output), BRUME_ERROR_FORMAT, "color: 17 x 12");
@@ -228,14 +230,12 @@ TEST_P(Plans, ImagesMustFit)
     expect_status(context.get(), execute(plan.get(), color, depth, flipped), BRUME_ERROR_ARGUMENT, "output.origin");
 
     const brume_image wide_image = wide.image(), good = wide.image();
-    expect_status(context.get(),
-                  execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &wide_image)}),
-                  BRUME_ERROR_FORMAT, "extra[0]");
-    expect_status(context.get(), execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_SCATTERED, &good)}),
-                  BRUME_ERROR_ARGUMENT, "extra[0].output");
-    expect_status(context.get(),
-                  execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_TRANSMITTANCE, nullptr)}),
-                  BRUME_ERROR_ARGUMENT, "extra[0].image");
+    expect_status(context.get(), execute(plan.get(), color, depth, output, {layer("transmittance", &wide_image)}),
+                  BRUME_ERROR_FORMAT, "transmittance: 17 x 12");
+    expect_status(context.get(), execute(plan.get(), color, depth, output, {layer("scattered", &good)}),
+                  BRUME_ERROR_ARGUMENT, "outputs[0] (scattered)");
+    expect_status(context.get(), execute(plan.get(), color, depth, output, {layer("transmittance", nullptr)}),
+                  BRUME_ERROR_ARGUMENT, "outputs[0] (transmittance).image");
 
     // A new plan for the new format is all that it takes.
     Plan again = make_plan(context, scene, ray_format(17, 12));
@@ -318,15 +318,14 @@ TEST_P(Plans, MemoryDoesNotGrowOnceWarm)
     };
     Picture color(96, 64, {.pixel = BRUME_PIXEL_F16}), depth(96, 64, {.channels = 1}),
         output(96, 64, {.pixel = BRUME_PIXEL_F16}), transmittance(96, 64, {.pixel = BRUME_PIXEL_F16});
-    const brume_image extra_image = transmittance.image();
+    const brume_image layer_image = transmittance.image();
     paint(color);
     paint_depth(depth);
     uint64_t warm = 0;
     for (int made = 0; made < 5; ++made) {
-        Plan plan = make_plan(context, scene, ray_format(96, 64, BRUME_OUTPUT_TRANSMITTANCE));
+        Plan plan = make_plan(context, scene, ray_format(96, 64, {layer("transmittance")}));
         for (int frame = 0; frame < 20; ++frame) {
-            ASSERT_EQ(execute(plan.get(), color, depth, output, {extra_output(BRUME_OUTPUT_TRANSMITTANCE, &extra_image)}),
-                      BRUME_OK)
+            ASSERT_EQ(execute(plan.get(), color, depth, output, {layer("transmittance", &layer_image)}), BRUME_OK)
                 << message(context.get());
             if (made == 0 && frame == 1)
                 warm = bytes();

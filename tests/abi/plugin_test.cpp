@@ -118,7 +118,9 @@ TEST_F(Strangers, RefusalsSayWhy)
         {"null_name.so", "name"},
         {"null_help.so", "help"},
         {"null_execute.so", "execute"},
-        {"unknown_outputs.so", "outputs"},
+        {"unknown_layer_flag.so", "layers[1].flags"},
+        {"make_twice.so", "makes[1]"},
+        {"use_twice.so", "uses[1]"},
         {"billion_parameters.so", "parameter_count"},
         {"null_parameters.so", "parameters"},
         {"nan_default.so", "default"},
@@ -219,6 +221,7 @@ TEST(ThirdParty, CpuOnlyEffectOnGlSaysSo)
     Scene scene = make_scene(context, scene_with("well_behaved"));
     const brume_format format = ray_format(4, 4);
     brume_plan plan = nullptr;
-    expect_status(context.get(), brume_plan_create(scene.get(), &format, &plan), BRUME_ERROR_UNSUPPORTED, "CPU only");
+    expect_status(context.get(), brume_plan_create(scene.get(), &format, &plan), BRUME_ERROR_UNSUPPORTED,
+                  "CPU backend only");
 }
 #endif

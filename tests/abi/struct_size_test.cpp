@@ -55,7 +55,7 @@ class StructSize : public testing::Test {
 protected:
     Context context = make_context();
     Scene scene = make_scene(context, foggy);
-    Plan plan = make_plan(context, scene, ray_format(4, 3, BRUME_OUTPUT_TRANSMITTANCE));
+    Plan plan = make_plan(context, scene, ray_format(4, 3, {layer("transmittance")}));
     Picture color{4, 3}, depth{4, 3, {.channels = 1}}, output{4, 3}, transmittance{4, 3};
     brume_image color_image = color.image(), depth_image = depth.image(), output_image = output.image(),
                 transmittance_image = transmittance.image();
@@ -82,6 +82,9 @@ TEST_F(StructSize, OfInputs)
         brume_context_destroy(made);
         return status;
     });
+    const std::vector<brume_layer> outputs{layer("transmittance")};
+    check_sizes<brume_format>(context.get(), ray_format(4, 3, outputs),
+                              [&](auto *given) { return brume_plan_update(plan.get(), scene.get(), given); });
     check_sizes<brume_medium>(context.get(), BRUME_MEDIUM_INIT,
                               [&](auto *given) { return brume_scene_set_medium(scene.get(), given); });
     check_sizes<brume_quality>(context.get(), BRUME_QUALITY_INIT,
@@ -120,13 +123,21 @@ TEST_F(StructSize, OfInputs)
             return brume_plan_execute(plan.get(), &f);
         });
     check_sizes<brume_frame>(context.get(), frame(), [&](auto *given) { return brume_plan_execute(plan.get(), given); });
-    check_sizes<brume_extra_output>(context.get(), extra_output(BRUME_OUTPUT_TRANSMITTANCE, &transmittance_image),
-                                    [&](auto *given) {
-                                        brume_frame f = frame();
-                                        f.extra_count = 1;
-                                        f.extra = given;
-                                        return brume_plan_execute(plan.get(), &f);
-                                    });
+    check_sizes<brume_layer>(context.get(), layer("transmittance", &transmittance_image), [&](auto *given) {
+        brume_frame f = frame();
+        f.output_count = 1;
+        f.outputs = given;
+        return brume_plan_execute(plan.get(), &f);
+    });
+    check_sizes<brume_layer>(context.get(), layer("optical_depth"), [&](auto *given) {
+        brume_format format = ray_format(4, 3);
+        format.input_count = 1;
+        format.inputs = given;
+        brume_plan made = nullptr;
+        brume_status status = brume_plan_create(scene.get(), &format, &made);
+        brume_plan_destroy(made);
+        return status;
+    });
 }
 
 TEST_F(StructSize, OfMedia)
@@ -174,6 +185,8 @@ TEST_F(StructSize, OfResults)
     check_sizes<brume_parameter_info>(context.get(), BRUME_PARAMETER_INFO_INIT, [&](auto *info) {
         return brume_parameter_get_info(context.get(), "multiscatter", 0, info);
     });
+    check_sizes<brume_layer_info>(context.get(), BRUME_LAYER_INFO_INIT,
+                                  [&](auto *info) { return brume_layer_get_info(context.get(), nullptr, 0, info); });
     check_sizes<brume_scene_info>(context.get(), BRUME_SCENE_INFO_INIT,
                                   [&](auto *info) { return brume_scene_get_info(scene.get(), info); });
     check_sizes<brume_plan_info>(context.get(), BRUME_PLAN_INFO_INIT,
@@ -244,7 +257,7 @@ TEST_F(StructSize, CutFieldsTakeTheirDefaults)
     const brume_image packed = cut(color_image, offsetof(brume_image, pixel_stride));
     brume_frame f = frame();
     f.color = &packed;
-    brume_frame early_frame = cut(f, offsetof(brume_frame, extra));
+    brume_frame early_frame = cut(f, offsetof(brume_frame, inputs));
     EXPECT_EQ(brume_plan_execute(plan.get(), &early_frame), BRUME_OK) << message(context.get());
 
     brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;

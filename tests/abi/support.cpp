@@ -82,13 +82,25 @@ Plan make_plan(const Context &context, const Scene &scene, const brume_format &f
     return Plan(plan);
 }
 
-brume_format ray_format(int32_t width, int32_t height, uint32_t outputs)
+brume_layer layer(const char *name, const brume_image *image)
+{
+    brume_layer layer = BRUME_LAYER_INIT;
+    layer.name = name;
+    layer.image = image;
+    return layer;
+}
+
+brume_format ray_format(int32_t width, int32_t height, const std::vector<brume_layer> &outputs,
+                        const std::vector<brume_layer> &inputs)
 {
     brume_format format = BRUME_FORMAT_INIT;
     format.width = width;
     format.height = height;
     format.depth_kind = BRUME_DEPTH_RAY;
-    format.outputs = outputs;
+    format.output_count = uint32_t(outputs.size());
+    format.outputs = outputs.data();
+    format.input_count = uint32_t(inputs.size());
+    format.inputs = inputs.data();
     return format;
 }
 
@@ -182,24 +194,18 @@ void paint_depth(Picture &depth)
         }
 }
 
-brume_extra_output extra_output(uint32_t output, const brume_image *image)
-{
-    brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
-    extra.output = output;
-    extra.image = image;
-    return extra;
-}
-
 brume_status execute(brume_plan plan, const Picture &color, const Picture &depth, Picture &output,
-                     const std::vector<brume_extra_output> &extra)
+                     const std::vector<brume_layer> &outputs, const std::vector<brume_layer> &inputs)
 {
     const brume_image color_image = color.image(), depth_image = depth.image(), output_image = output.image();
     brume_frame frame = BRUME_FRAME_INIT;
     frame.color = &color_image;
     frame.depth = &depth_image;
     frame.output = &output_image;
-    frame.extra_count = uint32_t(extra.size());
-    frame.extra = extra.empty() ? nullptr : extra.data();
+    frame.output_count = uint32_t(outputs.size());
+    frame.outputs = outputs.data();
+    frame.input_count = uint32_t(inputs.size());
+    frame.inputs = inputs.data();
     return brume_plan_execute(plan, &frame);
 }
 

@@ -39,7 +39,12 @@ extern const char *const foggy;
 // The same fog everywhere, which only absorbs.
 extern const char *const absorbing;
 
-brume_format ray_format(int32_t width, int32_t height, uint32_t outputs = 0);
+// A layer of an image, or one for formats.
+brume_layer layer(const char *name, const brume_image *image = nullptr);
+
+// Ray distances, and these layers. It refers to them.
+brume_format ray_format(int32_t width, int32_t height, const std::vector<brume_layer> &outputs = {},
+                        const std::vector<brume_layer> &inputs = {});
 
 // What a picture's memory looks like; the default is packed RGBA floats.
 struct Layout {
@@ -83,9 +88,8 @@ void paint(Picture &color);
 // Ray distances from 2 to 80 m with jumps, and some sky.
 void paint_depth(Picture &depth);
 
-brume_extra_output extra_output(uint32_t output, const brume_image *image);
 brume_status execute(brume_plan plan, const Picture &color, const Picture &depth, Picture &output,
-                     const std::vector<brume_extra_output> &extra = {});
+                     const std::vector<brume_layer> &outputs = {}, const std::vector<brume_layer> &inputs = {});
 
 // Bit for bit, or an expectation that names the first pixel that differs.
 void expect_same_bits(const Picture &a, const Picture &b);

@@ -213,7 +213,7 @@ Measured measure(brume_context context, const Cloud &cloud, const View &view, co
                                    format.display_width = view.width;
                                    format.display_height = view.height;
                                },
-                               BRUME_OUTPUT_AIRLIGHT};
+                               {"airlight"}};
     const fog::Picture black(view.image_width(), view.image_height(), 4), depth(black.width, black.height, 1, wall);
     const fog::Plan plan(context, scene.dump(), black.width, black.height, options,
                          [&](brume_scene s) { cloud.describe(s, context); });

@@ -67,7 +67,7 @@ Json bank()
 Result through(const char *tier, Json scene, const Frame &frame)
 {
     scene["effects"]["airlight"] = {{"tier", tier}};
-    return run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT});
+    return run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, {"airlight"}});
 }
 
 class Canvas {

@@ -16,7 +16,8 @@ protected:
     brume_context context() { return backend(GetParam()); }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, ListsOn, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, ListsOn, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 // int rho dt of each pixel between the sum over those that matter and that over all.
 void hold_optical_depth(brume_context context, const Json &scene, int width, int height, const Window &window,
@@ -30,7 +31,7 @@ void hold_optical_depth(brume_context context, const Json &scene, int width, int
                         f.display_width = window.width;
                         f.display_height = window.height;
                     },
-                    BRUME_OUTPUT_OPTICAL_DEPTH};
+                    {"optical_depth"}};
     options.origin = origin;
     const bool up = origin == BRUME_ORIGIN_BOTTOM_LEFT;
     const Result r = run(context, scene.dump(), up ? flipped(frame.color) : frame.color,
@@ -101,14 +102,14 @@ TEST_P(ListsOn, FollowTheCameraAndTheKeys)
     spot["direction"] = {-1, {{"keys", {{3, -0.6}, {5, 0.6}}}}, 0.2};
     const Json scene = lit_scene(medium, Json::array({lamp, sun, spot}));
     const Frame frame = lit_frame(20, 15);
-    const Plan plan(context(), scene.dump(), 20, 15, Options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR});
+    const Plan plan(context(), scene.dump(), 20, 15, Options{{}, {"airlight_error"}});
     const Json poses[] = {pose({0, 0, 0}), pose({0, 0, 0}, 0.3, 0.1), pose({2, -1, -3}, 0.3, 0.1), pose({0, 0, 0}),
                           pose({0, 0, 0}, -2)};
     std::vector<float> before;
     for (double number : {0.0, 0.0, 3.0, 4.0, 5.0, 6.0, 0.0, 9.0})
         for (const Json &p : poses) {
             const brume_camera c = camera(p, 50);
-            const Options options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR, number, 0, &c};
+            const Options options{{}, {"airlight_error"}, number, 0, &c};
             const Picture got = plan.execute(frame.color, frame.depth, options).output,
                           expected = run(context(), scene.dump(), frame.color, frame.depth, options).output;
             const Worst worst = compare(got, expected, 1e-3);
@@ -134,8 +135,8 @@ TEST_P(ListsOn, ManyGaussians)
             g.scale = 0.05 * std::cbrt(double(count)) * std::exp(u(random));
             g.amplitude = 1;
         }
-        const Plan plan(context(), scene.dump(), 12, 8,
-                        Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR}, [&](brume_scene changed) {
+        const Plan plan(context(), scene.dump(), 12, 8, Options{{}, {"airlight", "airlight_error"}},
+                        [&](brume_scene changed) {
                             brume_density_term term = BRUME_DENSITY_TERM_INIT;
                             term.value = 0.1;
                             brume_medium medium = BRUME_MEDIUM_INIT;
@@ -146,8 +147,7 @@ TEST_P(ListsOn, ManyGaussians)
                             medium.gaussian_count = count;
                             Context::check(brume_scene_set_medium(changed, &medium), context());
                         });
-        const Result r =
-            plan.execute(frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
+        const Result r = plan.execute(frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}});
         for (float v : r.airlight.data)
             ASSERT_TRUE(std::isfinite(v) && v > 0) << count;
         for (float v : r.output.data)
@@ -165,7 +165,7 @@ TEST_P(ListsOn, ACropIsTheSamePicture)
         std::copy_n(frame.depth.at(x0, y0 + y), w, part.depth.at(0, y));
     }
     const Json scene = lit_scenes()[1].scene;
-    Options options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR};
+    Options options{{}, {"airlight_error"}};
     const Picture whole = run(context(), scene.dump(), frame.color, frame.depth, options).output;
     Picture expected(w, h, 4);
     for (int y = 0; y < h; ++y)

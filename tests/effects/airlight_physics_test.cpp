@@ -14,7 +14,7 @@ protected:
     Result lit(const Json &scene, const Picture &depth)
     {
         const Picture black(depth.width, depth.height, 4);
-        return run(context(), scene.dump(), black, depth, Options{{}, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_AIRLIGHT});
+        return run(context(), scene.dump(), black, depth, Options{{}, {"transmittance", "airlight"}});
     }
 };
 
@@ -83,7 +83,8 @@ TEST_P(AirlightPhysics, AgreesWithExhaustiveQuadrature)
 TEST_P(AirlightPhysics, RaysThatPassTheListedGaussiansBySeeTheRest)
 {
     const Json blobs{constant(0.1), gaussian({-2.3, 2.2, -6}, 4, 3), gaussian({-2.5, 2.4, -6.5}, 4, 3)};
-    const Json scene = lit_scene({{"scattering", 0.3}, {"density", blobs}}, Json::array({point_light({1, 0.5, -8}, 10, 0.1)}));
+    const Json scene =
+        lit_scene({{"scattering", 0.3}, {"density", blobs}}, Json::array({point_light({1, 0.5, -8}, 10, 0.1)}));
     const Frame frame = lit_frame(16, 16);
     EXPECT_LT(Sampled(scene, frame, 60).errors(lit(scene, frame.depth).airlight)[170], 0.01);
 }
@@ -95,7 +96,7 @@ TEST(AirlightReference, IsTheExhaustiveQuadrature)
         if (scene.contains("environment"))
             continue;
         const Result r = run(cpu(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth,
-                             Options{{}, BRUME_OUTPUT_AIRLIGHT});
+                             Options{{}, {"airlight"}});
         EXPECT_LT(Sampled(scene, frame, 20).errors(r.airlight).back(), 1e-4) << name;
         if (gl()) {
             EXPECT_THROW(run(*gl(), with_airlight(scene, "tier", "reference").dump(), frame.color, frame.depth), Failure);
@@ -112,8 +113,7 @@ TEST(AirlightErrorEstimate, BoundsTheError)
     for (const auto &[name, scene, tiers] : lit_scenes()) {
         if (scene.contains("environment"))
             continue;
-        const Result r = run(cpu(), scene.dump(), frame.color, frame.depth,
-                             Options{{}, BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR});
+        const Result r = run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}});
         const Sampled sampled(scene, frame, 120);
         for (const auto &p : sampled.pixels)
             for (int c = 0; c < 3; ++c) {

@@ -13,7 +13,7 @@ TEST(AirlightResolution, ErrorIsSmallAndNothingBleedsOverEdges)
         auto airlight = [&](const char *resolution) {
             Json s = scene;
             s["effects"]["airlight"]["resolution"] = resolution;
-            return run(cpu(), s.dump(), frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT}).airlight;
+            return run(cpu(), s.dump(), frame.color, frame.depth, Options{{}, {"airlight"}}).airlight;
         };
         const Picture full = airlight("full");
         double mean = 0;
@@ -59,8 +59,7 @@ TEST(AirlightResolution, EverySizeIsFilled)
             scene["effects"]["airlight"]["resolution"] = resolution;
             Frame frame = lit_frame(width, height);
             std::fill(frame.depth.data.begin(), frame.depth.data.end(), 12.0f);
-            const Picture got =
-                run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, BRUME_OUTPUT_AIRLIGHT}).airlight;
+            const Picture got = run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, {"airlight"}}).airlight;
             for (float v : got.data)
                 ASSERT_GT(v, 0) << width << "x" << height << " " << resolution;
         }

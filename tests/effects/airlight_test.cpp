@@ -8,8 +8,7 @@ using namespace fog;
 namespace {
 
 // All the effect has: software GL compiles a program anew, for seconds, for each set of images that are bound to it.
-constexpr uint32_t shown =
-    BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR;
+const Names shown = {"transmittance", "optical_depth", "airlight", "airlight_error"};
 
 class AirlightOn : public testing::TestWithParam<const char *> {
 protected:
@@ -23,13 +22,14 @@ protected:
         return std::string(GetParam()) == "cpu" ? all : std::vector<NamedScene>{all[1]};
     }
 
-    Result fogged(const Json &scene, const Frame &frame, uint32_t outputs = shown, uint32_t lights = 0)
+    Result fogged(const Json &scene, const Frame &frame, const Names &outputs = shown, uint32_t lights = 0)
     {
         return run(context(), scene.dump(), frame.color, frame.depth, Options{{}, outputs, 0, lights});
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, AirlightOn, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, AirlightOn, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 Json in_tier(Json scene, const std::string &tier)
 {
@@ -132,8 +132,7 @@ TEST_P(AirlightOn, TransmittanceIsThatOfMultiscatter)
     for (const auto &[name, scene, tiers] : scenes()) {
         Json other = scene;
         other["effects"] = {{"multiscatter", Json::object()}};
-        const Result a = fogged(scene, frame),
-                     b = fogged(other, frame, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH);
+        const Result a = fogged(scene, frame), b = fogged(other, frame, {"transmittance", "optical_depth"});
         const Worst transmittance = compare(a.transmittance, b.transmittance, 1e-3),
                     optical_depth = compare(a.optical_depth, b.optical_depth, 1e-3);
         EXPECT_LE(transmittance.error, rounding()) << name << " " << transmittance.describe();
@@ -151,7 +150,7 @@ TEST_P(AirlightOn, AfterMultiscatterItOnlyAdds)
                 light.erase("radius");  // seen by nobody
         both["effects"]["multiscatter"] = Json::object();
         alone["effects"] = {{"multiscatter", Json::object()}};
-        const Result added = fogged(both, frame), plain = fogged(alone, frame, BRUME_OUTPUT_TRANSMITTANCE);
+        const Result added = fogged(both, frame), plain = fogged(alone, frame, {"transmittance"});
         Picture expected = plain.output;
         for (int y = 0; y < 18; ++y)
             for (int x = 0; x < 24; ++x)
@@ -200,8 +199,7 @@ TEST_P(AirlightOn, AVisibleLampIsCountedOnce)
         const double lit = lamp * (1 - std::exp(-tau));
         Json alone = scene;
         alone["effects"].erase("airlight");
-        const Result both = fogged(scene, frame, shown | BRUME_OUTPUT_SCATTERED),
-                     one = fogged(alone, frame, BRUME_OUTPUT_SCATTERED);
+        const Result both = fogged(scene, frame, joined(shown, {"scattered"})), one = fogged(alone, frame, {"scattered"});
         double airlight = sum(both.airlight) / 3, rest = sum(both.scattered) / 3, all = sum(one.scattered) / 3;
         printf(
             "tau %.1f: of what is scattered (%.0f) multiscatter alone brings %.3f; beside the airlight's %.3f (tau e^-tau: "

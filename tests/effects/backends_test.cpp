@@ -53,7 +53,7 @@ TEST(GpuAgainstCpu, PointwisePassesWithinTwoParts)
     for (auto [w, h] : {std::pair(1, 1), {97, 61}, {1, 300}})
         for (const char *medium : media) {
             Frame f = random_frame(w, h, 1);
-            Options all{{}, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH | BRUME_OUTPUT_BLUR_RADIUS, 0};
+            Options all{{}, {"transmittance", "optical_depth", "blur_radius"}, 0};
             auto a = run(gpu(), scene(medium), f.color, f.depth, all), b = run(cpu(), scene(medium), f.color, f.depth, all);
             // Beyond tau = 100 the transmittance is zero; there the rounding of a large exponent is all that differs.
             for (Picture *p : {&a.optical_depth, &b.optical_depth})
@@ -86,7 +86,8 @@ TEST(GpuAgainstCpu, WholeFilterWithinItsBound)
                   "\"separation\":true", "\"levels\":3"}) {
                 Frame f = random_frame(w, h, 2);
                 const std::string all = std::string("\"kernel\":\"paper\"") + (*parameters ? "," : "") + parameters;
-                auto a = run(gpu(), scene(medium, all), f.color, f.depth), b = run(cpu(), scene(medium, all), f.color, f.depth);
+                auto a = run(gpu(), scene(medium, all), f.color, f.depth),
+                     b = run(cpu(), scene(medium, all), f.color, f.depth);
                 Worst found = compare(a.output, b.output, 0.05);
                 worst = std::max(worst, found.error);
                 EXPECT_LT(found.error, bound)

@@ -92,7 +92,7 @@ TEST_P(Calibrated, EnergyOfOnePixel)
             Json s = Json::parse(scene("\"scattering\":" + std::to_string(tau / 20) + ",\"g\":0.9", kernel + quality));
             s["camera"]["vertical_fov"] = 160;
             const Result r = run(context(), s.dump(), color, Picture(w, h, 1, 20),
-                                 {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
+                                 {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, {"scattered"}, 0});
             const double expected = 1000 * (1 / (1 + 0.45 * std::pow(0.1 * tau, 1.2)) - std::exp(-tau));
             EXPECT_NEAR(scattered_sum(r) / expected, 1, 1e-3) << tau << quality;
         }
@@ -124,7 +124,7 @@ TEST_P(Calibrated, AMovingLightKeepsItsEnergy)
         color.at(int(x), 61)[0] = float(1000 * (1 - (x - std::floor(x))));
         color.at(int(x) + 1, 61)[0] = float(1000 * (x - std::floor(x)));
         const double sum = scattered_sum(run(context(), scene("\"scattering\":0.05,\"g\":0.8", kernel), color,
-                                             Picture(w, h, 1, 20), {{}, BRUME_OUTPUT_SCATTERED, 0}));
+                                             Picture(w, h, 1, 20), {{}, {"scattered"}, 0}));
         least = std::min(least, sum);
         most = std::max(most, sum);
     }
@@ -222,7 +222,7 @@ TEST_P(Calibrated, AnySizeShowsAsMuchLight)
                     if (std::hypot(i + 0.5 - x, j + 0.5 - y) < radius)
                         light += color.at(i, j)[0] = 1000;
             const double share = scattered_sum(run(context(), scene("\"scattering\":0.05,\"g\":0.8", kernel), color,
-                                                   Picture(w, h, 1, 20), {{}, BRUME_OUTPUT_SCATTERED, 0})) /
+                                                   Picture(w, h, 1, 20), {{}, {"scattered"}, 0})) /
                                  light;
             least = std::min(least, share);
             most = std::max(most, share);
@@ -243,13 +243,13 @@ TEST_P(Calibrated, FarLightsDoNotShineThroughNearSurfaces)
             depth.at(x, y)[0] = 0.01f;
     color.at(w / 2 + 3, h / 2)[0] = 1000;
     const Picture scattered =
-        run(context(), scene("\"scattering\":0.03,\"g\":0.8", kernel), color, depth, {{}, BRUME_OUTPUT_SCATTERED, 0})
-            .scattered;
+        run(context(), scene("\"scattering\":0.03,\"g\":0.8", kernel), color, depth, {{}, {"scattered"}, 0}).scattered;
     EXPECT_GT(scattered.at(w / 2 + 8, h / 2)[0], 0.1);
     EXPECT_LT(scattered.at(w / 2 - 2, h / 2)[0], 1e-3 * scattered.at(w / 2 + 8, h / 2)[0]);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Calibrated, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, Calibrated, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 // The reference shares the spread and the arrived fraction with the kernel, but neither pyramid nor tables by level.
 TEST(CalibratedReference, WhiteFurnaceAndEnergyOfOnePixel)
@@ -266,7 +266,7 @@ TEST(CalibratedReference, WhiteFurnaceAndEnergyOfOnePixel)
     Json wide = Json::parse(scene("\"scattering\":0.05,\"g\":0.9", reference));
     wide["camera"]["vertical_fov"] = 160;
     const Result r = run(cpu(), wide.dump(), color, Picture(48, 40, 1, 20),
-                         {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, BRUME_OUTPUT_SCATTERED, 0});
+                         {[](brume_format &f) { f.depth_kind = BRUME_DEPTH_RAY; }, {"scattered"}, 0});
     EXPECT_NEAR(scattered_sum(r) / (1000 * (1 / (1 + 0.45 * std::pow(0.1, 1.2)) - std::exp(-1.0))), 1, 3e-3)
         << "a sum over pixels, against the integral over angles";
 }
@@ -295,8 +295,8 @@ TEST(GpuAgainstCpu, KernelCalibratedInEveryWidth)
         for (const char *quality : {"", ",\"resolution\":\"half\""}) {
             const Picture color = random_lights(w, 5, 2), depth = random_depth(w, 5, 5);
             const std::string text = scene(clear_media[0], kernel + quality);
-            const Worst found = compare(run(backend("gl"), text, color, depth).output, run(cpu(), text, color, depth).output,
-                                        0.05);
+            const Worst found =
+                compare(run(backend("gl"), text, color, depth).output, run(cpu(), text, color, depth).output, 0.05);
             EXPECT_LT(found.error, 1e-4) << w << " " << quality << " " << found.describe();
         }
 }

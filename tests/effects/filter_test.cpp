@@ -79,7 +79,8 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Filter, Backends, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Filter, Backends, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 TEST_P(Backends, ConstantDepthIsBeersLaw)
 {
@@ -89,7 +90,7 @@ TEST_P(Backends, ConstantDepthIsBeersLaw)
         for (float d : {1e-3f, 1.0f, 17.0f, 1000.0f}) {
             Picture color(5, 3, 4, 1), depth = constant_depth(5, 3, d);
             auto r = run(context(), paper_scene("\"absorption\":" + std::to_string(sigma)), color, depth,
-                         {ray_depth, BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH, 0});
+                         {ray_depth, {"transmittance", "optical_depth"}, 0});
             double tau = std::stod(std::to_string(sigma)) * d;
             EXPECT_NEAR(r.output.at(2, 1)[1], std::exp(-tau), tolerance) << sigma << " " << d;
             EXPECT_NEAR(r.transmittance.at(4, 2)[0], std::exp(-tau), tolerance);
@@ -100,7 +101,7 @@ TEST_P(Backends, ConstantDepthIsBeersLaw)
 TEST_P(Backends, PlanarDepthIsLongerTowardsTheCorners)
 {
     Picture color(9, 9, 4, 1), depth = constant_depth(9, 9, 10);
-    auto r = run(context(), paper_scene("\"absorption\":0.1"), color, depth, {{}, BRUME_OUTPUT_OPTICAL_DEPTH, 0});
+    auto r = run(context(), paper_scene("\"absorption\":0.1"), color, depth, {{}, {"optical_depth"}, 0});
     double tangent = std::tan(25 * M_PI / 180) * 8 / 9;  // of the outermost pixel centres
     EXPECT_NEAR(r.optical_depth.at(4, 4)[0], 1, 1e-5);
     EXPECT_NEAR(r.optical_depth.at(0, 4)[0], std::sqrt(1 + tangent * tangent), 1e-5);
@@ -120,13 +121,13 @@ TEST_P(Backends, WhiteFurnace)
                     d = u(random) < 0.2f ? INFINITY : 100 * u(random);
                 auto r = run(context(),
                              paper_scene("\"scattering\":0.02,\"g\":0.3",
-                                   plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
-                             color, depth, {{}, BRUME_OUTPUT_TRANSMITTANCE, 0});
+                                         plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
+                             color, depth, {{}, {"transmittance"}, 0});
                 // Depths differ per pixel, so L_sc varies; what is uniform is L. Only where all depths agree is L' = L.
                 auto same = run(context(),
                                 paper_scene("\"scattering\":0.02,\"g\":0.3",
-                                      plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
-                                color, constant_depth(w, h, 40), {ray_depth, 0, 0});
+                                            plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
+                                color, constant_depth(w, h, 40), {ray_depth});
                 Worst worst = compare(same.output, color, 1e-3);
                 EXPECT_LT(worst.error, 2e-6) << w << "x" << h << " " << size << " " << fetch << " " << worst.describe();
                 // A pixel keeps at most its own light and takes at most as much from others.
@@ -140,7 +141,7 @@ TEST_P(Backends, MaskingLosesHalfOfAUniformImagesScatteredLight)
     // As docs/accuracy.md says of the paper's mask, read literally.
     Picture color(256, 256, 4, 1);
     auto r = run(context(), paper_scene("\"scattering\":0.05,\"g\":0.8"), color, constant_depth(256, 256, 30),
-                 {ray_depth, BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_TRANSMITTANCE, 0});
+                 {ray_depth, {"scattered", "transmittance"}, 0});
     double kept = r.scattered.at(128, 128)[0] / (1 - r.transmittance.at(128, 128)[0]);
     EXPECT_GT(kept, 0.2);
     EXPECT_LT(kept, 0.8);
@@ -157,8 +158,8 @@ TEST_P(Backends, EnergyBalanceOfOnePixel)
                     color.at(w / 2 + 1, h / 2 - 2)[0] = 1000;
                     auto r = run(context(),
                                  paper_scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9",
-                                       plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
-                                 color, constant_depth(w, h, 20), {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
+                                             plain_filter + ",\"kernel_size\":\"" + size + "\",\"fetch\":\"" + fetch + "\""),
+                                 color, constant_depth(w, h, 20), {ray_depth, {"scattered"}, 0});
                     double expected = 1000 * -std::expm1(-sigma * 20);
                     EXPECT_NEAR(sum(r.scattered, 0) / expected, 1, 2e-3)
                         << w << "x" << h << " " << size << " " << fetch << " " << sigma;
@@ -171,7 +172,7 @@ TEST(Reference, OnePixelBecomesItsGaussian)
     Picture color(161, 161, 4, 0);
     color.at(80, 80)[0] = 1;
     auto r = run(cpu(), paper_scene("\"scattering\":0.005,\"g\":0.8", "\"kernel\":\"paper_reference\""), color,
-                 constant_depth(161, 161, 20), {ray_depth, BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0});
+                 constant_depth(161, 161, 20), {ray_depth, {"scattered", "blur_radius"}, 0});
     double w = r.blur_radius.at(80, 80)[0];
     ASSERT_GT(w, 2);
     ASSERT_LT(w, 12);
@@ -188,8 +189,8 @@ TEST(Reference, SplattingIsLinearAndSymmetric)
     for (size_t i = 0; i < both.data.size(); ++i)
         both.data[i] = a.data[i] + b.data[i];
     std::string s = paper_scene("\"scattering\":0.03,\"g\":0.9", "\"kernel\":\"paper_reference\"");
-    auto ra = run(cpu(), s, a, depth, {ray_depth, 0, 0}), rb = run(cpu(), s, b, depth, {ray_depth, 0, 0}),
-         rab = run(cpu(), s, both, depth, {ray_depth, 0, 0});
+    auto ra = run(cpu(), s, a, depth, {ray_depth}), rb = run(cpu(), s, b, depth, {ray_depth}),
+         rab = run(cpu(), s, both, depth, {ray_depth});
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 33; ++x)
             EXPECT_NEAR(rab.output.at(x, y)[1], ra.output.at(x, y)[1] + rb.output.at(x, y)[1], 1e-4);
@@ -197,7 +198,7 @@ TEST(Reference, SplattingIsLinearAndSymmetric)
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 33; ++x)
             std::copy_n(a.at(x, y), 4, flipped.at(32 - x, 19 - y));
-    auto rf = run(cpu(), s, flipped, depth, {ray_depth, 0, 0});
+    auto rf = run(cpu(), s, flipped, depth, {ray_depth});
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 33; ++x)
             EXPECT_NEAR(rf.output.at(32 - x, 19 - y)[2], ra.output.at(x, y)[2], 1e-5);
@@ -209,7 +210,8 @@ TEST(Reference, IsRefusedOnGlWithTheReason)
     if (!gl())
         throw std::runtime_error("no GL backend");
     try {
-        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"paper_reference\""), Picture(4, 4, 4, 1), constant_depth(4, 4, 1));
+        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"paper_reference\""), Picture(4, 4, 4, 1),
+            constant_depth(4, 4, 1));
         FAIL() << "expected a refusal";
     } catch (const Failure &failure) {
         EXPECT_EQ(failure.status, BRUME_ERROR_UNSUPPORTED);
@@ -227,7 +229,7 @@ TEST(Paper, RealisedDeviationAgainstTheOneAskedFor)
         Picture color(513, 513, 4, 0);
         color.at(256, 256)[0] = 1000;
         auto r = run(cpu(), paper_scene("\"scattering\":" + std::to_string(sigma) + ",\"g\":0.9", plain_filter), color,
-                     constant_depth(513, 513, 20), {ray_depth, BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS, 0});
+                     constant_depth(513, 513, 20), {ray_depth, {"scattered", "blur_radius"}, 0});
         double ratio = std::sqrt(variance(r.scattered)) / r.blur_radius.at(256, 256)[0];
         least = std::min(least, ratio);
         most = std::max(most, ratio);
@@ -289,13 +291,11 @@ TEST_P(Backends, CropWithMarginEqualsTheWhole)
         }
     std::string s = paper_scene("\"scattering\":0.02,\"g\":0.9", "\"levels\":4");
     auto whole = run(context(), s, color, depth);
-    auto part = run(context(), s, crop, crop_depth,
-                    {[&](brume_format &f) {
-                         f.display_x = -margin;
-                         f.display_width = w;
-                         f.display_height = h;
-                     },
-                     0, 0});
+    auto part = run(context(), s, crop, crop_depth, {[&](brume_format &f) {
+                        f.display_x = -margin;
+                        f.display_width = w;
+                        f.display_height = h;
+                    }});
     double error = 0;
     for (int y = 0; y < ch - 64; ++y)
         for (int x = 64; x < cw - 64; ++x)
@@ -309,8 +309,8 @@ TEST_P(Backends, ThePictureDoesNotDriftWhereSizesAreOdd)
     for (int size : {255, 256, 257, 333}) {
         Picture color(size, size, 4, 0);
         color.at(size / 2, size / 2)[0] = 1000;
-        auto r = run(context(), paper_scene("\"scattering\":0.01,\"g\":0.9", plain_filter), color, constant_depth(size, size, 20),
-                     {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
+        auto r = run(context(), paper_scene("\"scattering\":0.01,\"g\":0.9", plain_filter), color,
+                     constant_depth(size, size, 20), {ray_depth, {"scattered"}, 0});
         double m0 = 0, mx = 0, my = 0;
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
@@ -331,12 +331,12 @@ TEST_P(Backends, DensityTimesCrossSectionIsAllThatCounts)
     for (int x = 0; x < 90; ++x)
         for (int y = 0; y < 12; ++y)
             depth.at(x, y)[0] = 400;
-    Options blur{{}, BRUME_OUTPUT_BLUR_RADIUS, 0};
+    Options blur{{}, {"blur_radius"}, 0};
     auto one = run(context(), paper_scene("\"scattering\":0.02,\"absorption\":0.004,\"g\":0.7"), color, depth, blur);
-    auto two =
-        run(context(),
-            paper_scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
-            color, depth, blur);
+    auto two = run(
+        context(),
+        paper_scene("\"scattering\":0.01,\"absorption\":0.002,\"g\":0.7,\"density\":[{\"type\":\"constant\",\"value\":2}]"),
+        color, depth, blur);
     auto limit = run(
         context(),
         paper_scene(
@@ -355,7 +355,7 @@ TEST_P(Backends, SkyBehindFiniteFogIsBlurred)
         context(),
         paper_scene(
             "\"scattering\":0.02,\"g\":0.8,\"density\":[{\"type\":\"exponential\",\"falloff\":0.05,\"direction\":[0,1,0]}]"),
-        color, depth, {{}, BRUME_OUTPUT_BLUR_RADIUS | BRUME_OUTPUT_OPTICAL_DEPTH, 0});
+        color, depth, {{}, {"blur_radius", "optical_depth"}, 0});
     float w = r.blur_radius.at(30, 5)[0], tau = r.optical_depth.at(30, 5)[0];
     EXPECT_GT(tau, 0.5);
     EXPECT_LT(tau, 5);
@@ -368,7 +368,7 @@ TEST_P(Backends, EmissionSaturatesAtItsSourceFunction)
     Picture color(4, 4, 4, 0);
     for (float d : {0.01f, 1.0f, 100.0f, INFINITY}) {
         auto r = run(context(), paper_scene("\"absorption\":0.05,\"emission\":[0.1,0.05,0]"), color, constant_depth(4, 4, d),
-                     {ray_depth, 0, 0});
+                     {ray_depth});
         double share = std::isinf(d) ? 1 : -std::expm1(-0.05 * d);
         EXPECT_NEAR(r.output.at(1, 1)[0], 2 * share, 2e-5 * share + 1e-9) << d;
         EXPECT_NEAR(r.output.at(1, 1)[1], 1 * share, 2e-5 * share + 1e-9) << d;
@@ -381,8 +381,7 @@ TEST_P(Backends, SkyOptions)
     Picture color(8, 8, 4, 1), depth = constant_depth(8, 8, INFINITY);
     std::string s = paper_scene("\"absorption\":0.1");
     EXPECT_EQ(run(context(), s, color, depth).output.at(3, 3)[0], 0.0f);
-    EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }, 0, 0}).output.at(3, 3)[0],
-              1.0f);
+    EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }}).output.at(3, 3)[0], 1.0f);
     auto clamped = run(context(), s, color, depth,
                        {[](brume_format &f) {
                             f.sky = BRUME_SKY_CLAMP;
@@ -403,7 +402,7 @@ TEST_P(Backends, SeparationKeepsTheGlowOfNearLightsBeforeAFarBackground)
         }
     auto glow = [&](const std::string &parameters) {
         auto r = run(context(), paper_scene("\"scattering\":0.01,\"g\":0.5", parameters), color, depth,
-                     {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
+                     {ray_depth, {"scattered"}, 0});
         double total = 0;
         for (int y = 0; y < 128; ++y)
             for (int x = 0; x < 128; ++x)
@@ -421,8 +420,8 @@ TEST_P(Backends, FewerLevelsCapTheBlur)
     Picture color(100, 60, 4, 0), depth = constant_depth(100, 60, 50);
     color.at(20, 30)[0] = 1000;
     auto far_away = [&](int levels) {
-        auto r = run(context(), paper_scene("\"scattering\":0.05", plain_filter + ",\"levels\":" + std::to_string(levels)), color,
-                     depth, {ray_depth, BRUME_OUTPUT_SCATTERED, 0});
+        auto r = run(context(), paper_scene("\"scattering\":0.05", plain_filter + ",\"levels\":" + std::to_string(levels)),
+                     color, depth, {ray_depth, {"scattered"}, 0});
         EXPECT_GT(r.scattered.at(20, 30)[0], 0);
         return r.scattered.at(60, 30)[0];
     };

@@ -1,11 +1,14 @@
 #pragma once
 // Fogging small images through the C ABI, as tests want it.
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <brume/brume.h>
@@ -97,16 +100,45 @@ inline Context *gl()
 struct Result {
     Picture output, transmittance, optical_depth, scattered, blur_radius, airlight, airlight_error;
     std::vector<Picture> light_airlight;
+
+    Picture &layer(const std::string &name)
+    {
+        const std::pair<const char *, Picture *> all[] = {
+            {"transmittance", &transmittance}, {"optical_depth", &optical_depth}, {"scattered", &scattered},
+            {"blur_radius", &blur_radius},     {"airlight", &airlight},           {"airlight_error", &airlight_error}};
+        for (auto &[known, picture] : all)
+            if (name == known)
+                return *picture;
+        throw std::logic_error("fog.h knows no output layer " + name);
+    }
 };
+
+using Names = std::vector<std::string>;
+
+inline Names joined(Names a, const Names &b)
+{
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
 
 struct Options {
     std::function<void(brume_format &)> format;  // further settings
-    uint32_t outputs = 0;
+    Names outputs = {};                          // layers
     double frame = 0;
     uint32_t lights = 0;  // as many first ones give their own airlight
     const brume_camera *camera = nullptr;
     uint32_t origin = BRUME_ORIGIN_TOP_LEFT;
+    std::map<std::string, Picture> inputs = {};  // layers by name
 };
+
+inline brume_layer layer(const char *name, const brume_image *image = nullptr, uint32_t light = 0)
+{
+    brume_layer layer = BRUME_LAYER_INIT;
+    layer.name = name;
+    layer.image = image;
+    layer.light = light;
+    return layer;
+}
 
 // A scene's plan for images of one size.
 class Plan {
@@ -123,9 +155,17 @@ public:
         brume_format format = BRUME_FORMAT_INIT;
         format.width = width;
         format.height = height;
-        format.outputs = options.outputs;
+        std::vector<brume_layer> inputs, outputs;
+        for (auto &[name, picture] : options.inputs)
+            inputs.push_back(layer(name.c_str()));
+        for (const std::string &name : options.outputs)
+            outputs.push_back(layer(name.c_str()));
         if (options.lights)
-            format.outputs |= BRUME_OUTPUT_LIGHT_AIRLIGHT;
+            outputs.push_back(layer("light_airlight"));
+        format.inputs = inputs.data();
+        format.input_count = uint32_t(inputs.size());
+        format.outputs = outputs.data();
+        format.output_count = uint32_t(outputs.size());
         if (options.format)
             options.format(format);
         check(brume_plan_create(scene, &format, &plan_));
@@ -145,32 +185,23 @@ public:
         frame.output = &o;
         frame.frame = options.frame;
         frame.camera = options.camera;
-        Picture *const pictures[] = {&result.transmittance, &result.optical_depth, &result.scattered,
-                                     &result.blur_radius,   &result.airlight,      &result.airlight_error};
-        std::vector<std::pair<brume_extra_output, Picture *>> wanted;
-        auto want = [&](uint32_t output, uint32_t light, Picture *picture) {
-            brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
-            extra.output = output;
-            extra.light = light;
-            *picture = Picture(color.width, color.height, output == BRUME_OUTPUT_BLUR_RADIUS ? 1 : 3);
-            wanted.emplace_back(extra, picture);
+        std::deque<brume_image> images;
+        std::vector<brume_layer> inputs, outputs;
+        for (auto &[name, picture] : options.inputs)
+            inputs.push_back(layer(name.c_str(), &images.emplace_back(image(picture, options))));
+        auto want = [&](const char *name, uint32_t light, Picture &picture) {
+            picture = Picture(color.width, color.height, std::string_view(name) == "blur_radius" ? 1 : 3);
+            outputs.push_back(layer(name, &images.emplace_back(image(picture, options)), light));
         };
-        for (uint32_t k = 0; k < std::size(pictures); ++k)
-            if (options.outputs & (1u << k))
-                want(1u << k, 0, pictures[k]);
+        for (const std::string &name : options.outputs)
+            want(name.c_str(), 0, result.layer(name));
         result.light_airlight.resize(options.lights);
         for (uint32_t l = 0; l < options.lights; ++l)
-            want(BRUME_OUTPUT_LIGHT_AIRLIGHT, l, &result.light_airlight[l]);
-        std::vector<brume_image> images;
-        for (auto &[extra, picture] : wanted)
-            images.push_back(image(*picture, options));
-        std::vector<brume_extra_output> extras;
-        for (auto &[extra, picture] : wanted) {
-            extra.image = &images[extras.size()];
-            extras.push_back(extra);
-        }
-        frame.extra = extras.data();
-        frame.extra_count = uint32_t(extras.size());
+            want("light_airlight", l, result.light_airlight[l]);
+        frame.inputs = inputs.data();
+        frame.input_count = uint32_t(inputs.size());
+        frame.outputs = outputs.data();
+        frame.output_count = uint32_t(outputs.size());
         check(brume_plan_execute(plan_, &frame));
         return result;
     }

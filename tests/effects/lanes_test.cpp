@@ -159,19 +159,21 @@ TEST(Lanes, PixelsAsOneByOne)
 {
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     std::vector<float> depths{0, -0.0f, -1, nan, inf, -inf, 1, 0.5f, 1e-30f, 1e30f, 3e38f, 1e-42f, 0.99f, 1.01f, 50, 1000};
+    brume_plugin_medium m{};
+    brume_plugin_camera c{};
     brume_plugin_scene scene{};
-    auto &m = scene.medium;
-    for (int c = 0; c < 3; ++c) {
-        m.scattering[c] = 0.02f + 0.01f * float(c);
-        m.absorption[c] = 0.003f;
-        m.emission[c] = 0.1f;
-        m.luminance[c] = 1 / 3.0f;
+    scene.medium = &m;
+    scene.camera = &c;
+    for (int i = 0; i < 3; ++i) {
+        m.scattering[i] = 0.02f + 0.01f * float(i);
+        m.absorption[i] = 0.003f;
+        m.emission[i] = 0.1f;
+        m.luminance[i] = 1 / 3.0f;
     }
     m.asymmetry = 0.7f;
     m.constant = 0.5f;
     m.term_count = 1;
     m.terms[0][1] = 0.2f;
-    auto &c = scene.camera;
     c.focal[0] = c.focal[1] = 900;
     c.tangent_scale[0] = 1 / 900.0f;
     c.tangent_scale[1] = -1 / 900.0f;
@@ -188,8 +190,11 @@ TEST(Lanes, PixelsAsOneByOne)
                 const float x = 100.5f, y = 400.5f;
                 const std::vector<float> found = IN_BOTH(pixels(scene, x, y, depths));
                 for (size_t i = 0; i < depths.size(); ++i) {
-                    const f32::Pixel p =
-                        f32::pixel_in_medium(f32::medium_of(scene), f32::camera_of(scene), {x, y}, depths[i], 0);
+                    const f32::Medium medium = f32::medium_of(scene);
+                    const f32::Camera camera = f32::camera_of(scene);
+                    const f32::Ray ray = f32::pixel_ray(camera, {x, y}, depths[i]);
+                    const f32::vec2 texel = f32::density_texel(ray, f32::density_to(medium, ray, 0));
+                    const f32::Pixel p = f32::pixel_in_medium(medium, camera, texel);
                     const float expected[] = {p.distance,        p.density,   p.transmittance.x, p.transmittance.y,
                                               p.transmittance.z, p.share.x,   p.share.y,         p.share.z,
                                               p.emitted.x,       p.emitted.y, p.emitted.z,       p.spread};

@@ -58,7 +58,7 @@ Picture fog_light(const Plan &plan, const Shot &s, const Frame &f)
 {
     brume_camera c = camera(pose({0, 0, 0}, s.yaw), 50);
     c.center[0] = s.center_x / s.width;
-    Options options{{}, BRUME_OUTPUT_SCATTERED};
+    Options options{{}, {"scattered"}};
     options.camera = &c;
     return plan.execute(f.color, f.depth, options).scattered;
 }
@@ -115,7 +115,7 @@ protected:
 TEST_P(Motion, AWindowThatMovesByWholePixels)
 {
     for (const Case &c : cases) {
-        const Plan plan(context(), foggy(c.parameters), width, height, {{}, BRUME_OUTPUT_SCATTERED});
+        const Plan plan(context(), foggy(c.parameters), width, height, {{}, {"scattered"}});
         Changes changes;
         Picture before;
         for (int frame = 0; frame < frames(); ++frame) {
@@ -140,7 +140,7 @@ TEST_P(Motion, APan)
     const double step = 0.3;
     const int edge = 5 + int(step * frames());
     for (const Case &c : cases) {
-        const Plan plan(context(), foggy(c.parameters), width, height, {{}, BRUME_OUTPUT_SCATTERED});
+        const Plan plan(context(), foggy(c.parameters), width, height, {{}, {"scattered"}});
         std::vector<std::vector<double>> light(size_t(width * height));
         double mean = 0;
         for (int frame = 0; frame < frames(); ++frame) {
@@ -189,7 +189,7 @@ struct Overscan {
                          f.display_width = width;
                          f.display_height = height;
                      },
-                     BRUME_OUTPUT_SCATTERED});
+                     {"scattered"}});
     }
     // What is displayed of fog's light while the lamp's centre is at x of the display window.
     Picture fog_light(const Plan &plan, double x) const
@@ -200,7 +200,7 @@ struct Overscan {
             add_lamp(f, lamp_x + margin, lamp_y + margin);
         if (fading)
             fade(f.color);
-        const Picture all = plan.execute(f.color, f.depth, {{}, BRUME_OUTPUT_SCATTERED}).scattered;
+        const Picture all = plan.execute(f.color, f.depth, {{}, {"scattered"}}).scattered;
         Picture shown(width, height, 3);
         for (int j = 0; j < height; ++j)
             std::copy_n(all.at(margin, j + margin), 3 * width, shown.at(0, j));
@@ -274,4 +274,5 @@ TEST(Overscan, ALampThatLeaves)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Motion, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(All, Motion, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });

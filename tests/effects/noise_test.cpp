@@ -22,7 +22,7 @@ std::string noisy(const std::string &noise, double shift = 0, double yaw = 0)
 fog::Picture depths(brume_context context, const std::string &scene, double frame = 0)
 {
     const fog::Picture color(33, 33, 4), depth(33, 33, 1, 20.0f);
-    return fog::run(context, scene, color, depth, {nullptr, BRUME_OUTPUT_OPTICAL_DEPTH, frame}).optical_depth;
+    return fog::run(context, scene, color, depth, {nullptr, {"optical_depth"}, frame}).optical_depth;
 }
 
 double largest_difference(const fog::Picture &a, const fog::Picture &b)
@@ -47,8 +47,7 @@ TEST(Noise, ChangesWithSeedAndOffsetAndKeepsItsMean)
     const fog::Picture smooth = depths(fog::cpu(), noisy("")), rough = depths(fog::cpu(), noisy(strong));
     EXPECT_GT(largest_difference(smooth, rough), 0.1);
     EXPECT_GT(largest_difference(rough, depths(fog::cpu(), noisy("{\"strength\":0.7,\"scale\":0.4,\"seed\":6}"))), 0.1);
-    const std::string moving =
-        "{\"strength\":0.7,\"scale\":0.4,\"seed\":5,\"offset\":[0,{\"keys\":[[0,0],[10,1]]},0]}";
+    const std::string moving = "{\"strength\":0.7,\"scale\":0.4,\"seed\":5,\"offset\":[0,{\"keys\":[[0,0],[10,1]]},0]}";
     EXPECT_EQ(rough.data, depths(fog::cpu(), noisy(moving), 0).data);
     EXPECT_GT(largest_difference(rough, depths(fog::cpu(), noisy(moving), 5)), 0.1);
     double means[2] = {0, 0};
@@ -67,7 +66,8 @@ TEST(Noise, StaysWhereItIsInTheWorld)
     const fog::Picture turned = depths(fog::cpu(), noisy(strong, 0, -pixel));
     // One pixel to the right of the middle, seen straight on by the second camera.
     EXPECT_NEAR(turned.at(16, 16)[0] / straight.at(17, 16)[0], 1, 1e-4);
-    const fog::Picture unmoved = depths(fog::cpu(), noisy("{\"strength\":0.7,\"scale\":0.4,\"seed\":5,\"offset\":[102.4,0,0]}"));
+    const fog::Picture unmoved =
+        depths(fog::cpu(), noisy("{\"strength\":0.7,\"scale\":0.4,\"seed\":5,\"offset\":[102.4,0,0]}"));
     EXPECT_LT(largest_difference(straight, unmoved), 1e-3) << "it repeats after 256 lattice points";
 }
 

@@ -29,8 +29,7 @@ struct Referenced {
     {
         Json exact = random.scene;
         exact["quality"] = "reference";
-        const Result r =
-            run(cpu(), exact.dump(), random.frame.color, random.frame.depth, Options{{}, BRUME_OUTPUT_TRANSMITTANCE});
+        const Result r = run(cpu(), exact.dump(), random.frame.color, random.frame.depth, Options{{}, {"transmittance"}});
         reference = r.output;
         transmittance = std::accumulate(r.transmittance.data.begin(), r.transmittance.data.end(), 0.0) /
                         double(r.transmittance.data.size());

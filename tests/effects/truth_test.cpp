@@ -182,8 +182,7 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
         const Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}),
                       truth = read_exr(file + ".exr", {"R", "G", "B"});
         for (const char *where : backend_names) {
-            const Picture got =
-                run(backend(where), scene.dump(), color, depth, Options{{}, BRUME_OUTPUT_AIRLIGHT_ERROR}).output;
+            const Picture got = run(backend(where), scene.dump(), color, depth, Options{{}, {"airlight_error"}}).output;
             const double error = rel_mse(got, truth), ratio = energy(got, truth);
             printf("%s %s airlight on %s: relMSE %.4f, energy %.3f, without fog %.3f\n", name, medium, where, error, ratio,
                    rel_mse(read_exr(clear, {"R", "G", "B"}), truth));
@@ -193,8 +192,8 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
     }
 }
 
-// The lamps stand out of sight, so their light in the fog is the airlight's and what surfaces have of it is the filter's. No bound
-// was tuned to: the model comes from lamp_calibration.
+// The lamps stand out of sight, so their light in the fog is the airlight's and what surfaces have of it is the filter's. No
+// bound was tuned to: the model comes from lamp_calibration.
 TEST_F(Truth, LampsThatLightWhatIsSeen)
 {
     const struct {
@@ -218,8 +217,8 @@ TEST_F(Truth, LampsThatLightWhatIsSeen)
                 scene["effects"]["airlight"] = airlight;
                 const Picture got = run(backend(where), scene.dump(), color, depth).output;
                 const double error = rel_mse(got, truth);
-                printf("yard %s airlight %s on %s: relMSE %.4f, energy %.3f, log2 RMS %.3f\n", medium, airlight.dump().c_str(), where,
-                       error, energy(got, truth), log2_rms(got, truth));
+                printf("yard %s airlight %s on %s: relMSE %.4f, energy %.3f, log2 RMS %.3f\n", medium,
+                       airlight.dump().c_str(), where, error, energy(got, truth), log2_rms(got, truth));
                 return error;
             };
             const double single = fogged({{"orders", "single"}}), all = fogged({{"orders", "all"}}),

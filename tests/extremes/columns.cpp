@@ -2,11 +2,12 @@
 
 namespace extremes {
 
-uint32_t Column::outputs() const
+fog::Names Column::outputs() const
 {
-    return BRUME_OUTPUT_TRANSMITTANCE | BRUME_OUTPUT_OPTICAL_DEPTH |
-           (filters() ? BRUME_OUTPUT_SCATTERED | BRUME_OUTPUT_BLUR_RADIUS : 0) |
-           (lit() ? BRUME_OUTPUT_AIRLIGHT | BRUME_OUTPUT_AIRLIGHT_ERROR : 0);
+    fog::Names names{"transmittance", "optical_depth"};
+    if (filters())
+        names = fog::joined(names, {"scattered", "blur_radius"});
+    return lit() ? fog::joined(names, {"airlight", "airlight_error"}) : names;
 }
 
 bool Column::takes(const Condition &c) const

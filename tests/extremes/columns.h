@@ -15,7 +15,7 @@ struct Column {
     bool filters() const { return effects.contains("multiscatter"); }
     bool lit() const { return effects.contains("airlight"); }
     std::string tier() const { return lit() ? effects["airlight"].value("tier", "nodes") : ""; }
-    uint32_t outputs() const;
+    fog::Names outputs() const;
     // What the published tiers refuse is no cell of the table.
     bool takes(const Condition &c) const;
     std::string scene(const Condition &c) const;

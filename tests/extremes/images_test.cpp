@@ -42,7 +42,8 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Extremes, Images, testing::ValuesIn(fog::backend_names), [](auto &info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Extremes, Images, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
 
 // One of the images of a frame, as floats or halves.
 struct Stored {
@@ -116,20 +117,18 @@ TEST_P(Images, PixelTypes)
             fog::Options options = options_of(column);
             const fog::Plan plan(context(), column.scene(c), 16, 12, options);
             const Result expected = plan.execute(frame.color, frame.depth, options);
-            const Picture &expected_extra = column.lit() ? expected.airlight : expected.transmittance;
+            const Picture &expected_layer = column.lit() ? expected.airlight : expected.transmittance;
             for (int kinds = 0; kinds < 8; ++kinds) {
                 auto pixel = [&](int bit) { return kinds >> bit & 1 ? BRUME_PIXEL_F16 : BRUME_PIXEL_F32; };
                 Stored color(frame.color, pixel(0)), depth(frame.depth, pixel(1)), output(frame.color, pixel(2)),
-                    further(expected_extra, pixel(2));
-                brume_extra_output extra = BRUME_EXTRA_OUTPUT_INIT;
-                extra.output = column.lit() ? BRUME_OUTPUT_AIRLIGHT : BRUME_OUTPUT_TRANSMITTANCE;
-                extra.image = &further.image;
+                    further(expected_layer, pixel(2));
+                const brume_layer layer = fog::layer(column.lit() ? "airlight" : "transmittance", &further.image);
                 brume_frame f = BRUME_FRAME_INIT;
                 f.color = &color.image;
                 f.depth = &depth.image;
                 f.output = &output.image;
-                f.extra = &extra;
-                f.extra_count = 1;
+                f.outputs = &layer;
+                f.output_count = 1;
                 fog::Context::check(brume_plan_execute(plan, &f), context());
                 for (size_t i = 0; i < output.floats.size(); ++i) {
                     const float in = frame.color.data[i], wanted = expected.output.data[i];
@@ -143,7 +142,7 @@ TEST_P(Images, PixelTypes)
                     }
                 }
                 for (size_t i = 0; i < further.halves.size() && pixel(2) == BRUME_PIXEL_F16; ++i)
-                    ASSERT_EQ(further.halves[i], saturated_half(expected_extra.data[i])) << i;
+                    ASSERT_EQ(further.halves[i], saturated_half(expected_layer.data[i])) << i;
             }
             if (column.lit() && intensity > 1) {
                 EXPECT_GT(*std::max_element(expected.airlight.data.begin(), expected.airlight.data.end()), 65504);

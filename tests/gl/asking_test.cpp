@@ -33,15 +33,10 @@ void run_frame(Backend &backend, const brume_image &color, const brume_image &de
         backend.check(output, "output", true);
         backend.check(depth, "depth", false);
         backend.pixel(output);
-        auto program = backend.compile("scale", scale_source, "");
         auto from = backend.import(color, 4);
         auto by = backend.import(depth, 1);
         auto to = backend.begin_output(output, 4, color.gl_texture != output.gl_texture);
-        Pass("scale", *program, width, height)
-            .bind("source", *from, BRUME_ACCESS_FETCH)
-            .bind("target", *to, BRUME_ACCESS_WRITE)
-            .set("factor", std::vector{2.0f})
-            .run(backend);
+        scale(backend, *from, *to, 2.0f);
         backend.finish_output(output, *to);
         backend.flush();
     });

@@ -15,15 +15,10 @@ std::vector<float> scaled(Backend &backend, float factor)
 {
     std::vector<float> values = ramp(width * height * 4);
     backend.invoke([&] {
-        auto program = backend.compile("scale", scale_source, "");
         const brume_image image = host_image(values.data(), width, height, 4);
         auto from = backend.import(image, 4);
         auto to = backend.begin_output(image, 4, false);
-        Pass("scale", *program, width, height)
-            .bind("source", *from, BRUME_ACCESS_FETCH)
-            .bind("target", *to, BRUME_ACCESS_WRITE)
-            .set("factor", std::vector{factor})
-            .run(backend);
+        scale(backend, *from, *to, factor);
         backend.finish_output(image, *to);
         backend.flush();
     });
@@ -358,15 +353,10 @@ TEST_F(Textures, DepthIsReadAsItIs)
         glTextureParameteri(depth, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         std::vector<float> values(width * height, -1);
         backend->invoke([&] {
-            auto program = backend->compile("scale", scale_source, "");
             const brume_image output = host_image(values.data(), width, height, 1);
             auto from = backend->import(texture_image(depth, width, height, 1), 1);
             auto to = backend->begin_output(output, 1, true);
-            Pass("scale", *program, width, height)
-                .bind("source", *from, BRUME_ACCESS_FETCH)
-                .bind("target", *to, BRUME_ACCESS_WRITE)
-                .set("factor", std::vector{1.0f})
-                .run(*backend);
+            scale(*backend, *from, *to, 1.0f);
             backend->finish_output(output, *to);
         });
         for (float got : values)
@@ -386,13 +376,8 @@ TEST_F(Textures, DepthIsTheRedOfTwoOrNormalised)
             const brume_image output = host_image(values.data(), width, height, 1);
             auto from = backend->import(texture_image(depth, width, height, 1), 1);
             EXPECT_EQ(from->channels, 1);
-            auto program = backend->compile("scale", scale_source, "");
             auto to = backend->begin_output(output, 1, true);
-            Pass("scale", *program, width, height)
-                .bind("source", *from, BRUME_ACCESS_FETCH)
-                .bind("target", *to, BRUME_ACCESS_WRITE)
-                .set("factor", std::vector{1.0f})
-                .run(*backend);
+            scale(*backend, *from, *to, 1.0f);
             backend->finish_output(output, *to);
         });
         for (float got : values)
@@ -442,15 +427,10 @@ TEST_F(Textures, OutputsOfTenBitsAreClampedAndRoundToNearest)
         const GLuint texture = make_texture(GL_RGB10_A2, width, height);
         backend->invoke([&] {
             // By a pass, as effects write it.
-            auto program = backend->compile("scale", scale_source, "");
             const brume_image output = texture_image(texture, width, height);
             auto from = backend->import(host_image(values.data(), width, height, 4), 4);
             auto to = backend->begin_output(output, 4, true);
-            Pass("scale", *program, width, height)
-                .bind("source", *from, BRUME_ACCESS_FETCH)
-                .bind("target", *to, BRUME_ACCESS_WRITE)
-                .set("factor", std::vector{1.0f})
-                .run(*backend);
+            scale(*backend, *from, *to, 1.0f);
             backend->finish_output(output, *to);
         });
         std::vector<uint32_t> packed(width * height);
@@ -487,15 +467,10 @@ TEST_F(Textures, ScalarOutputs)
     const GLuint texture = make_texture(GL_RGBA32F, width, height);
     const brume_image output = texture_image(texture, width, height, 1);
     backend->invoke([&] {
-        auto program = backend->compile("scale", scale_source, "");
         auto from = backend->import(host_image(values.data(), width, height, 1), 1);
         auto to = backend->begin_output(output, 1, true);
         EXPECT_EQ(to->channels, 1);
-        Pass("scale", *program, width, height)
-            .bind("source", *from, BRUME_ACCESS_FETCH)
-            .bind("target", *to, BRUME_ACCESS_WRITE)
-            .set("factor", std::vector{2.0f})
-            .run(*backend);
+        scale(*backend, *from, *to, 2.0f);
         backend->finish_output(output, *to);
         backend->copy(output, host_image(back.data(), width, height, 4));
     });

@@ -1,10 +1,12 @@
 // Programs, passes, images and timers, as effects use them.
+#include <cstddef>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "core/shader_text.h"
 #include "gl/program_source.h"
+#include "gl_calls.h"
 #include "support.h"
 
 namespace brume::test {
@@ -14,9 +16,10 @@ class Programs : public testing::Test {
 protected:
     std::unique_ptr<Backend> backend = owned_backend();
 
+    // What making a pass of this shader throws.
     Failure compile_failure(const std::string &source, const std::string &defines = "")
     {
-        return failure_of([&] { backend->invoke([&] { backend->compile("mine.comp", source, defines); }); });
+        return failure_of([&] { backend->invoke([&] { make(source, defines); }); });
     }
 
     // The first float that `source`'s `result` image gets.
@@ -24,13 +27,23 @@ protected:
     {
         float value = -1;
         backend->invoke([&] {
-            auto program = backend->compile("mine.comp", source, defines);
+            const auto pass = make(source, defines);
             const brume_image output = host_image(&value, 1, 1, 1);
             auto target = backend->begin_output(output, 1, true);
-            Pass("evaluate", *program, 1, 1).bind("result", *target, BRUME_ACCESS_WRITE).run(*backend, scene);
+            const brume_plugin_image images[] = {target.get(), nullptr};
+            backend->run(*pass, images, nullptr, 1, 1, scene, nullptr, nullptr);
             backend->finish_output(output, *target);
         });
         return value;
+    }
+
+    std::shared_ptr<Pass> make(const std::string &source, const std::string &defines = "")
+    {
+        const std::vector<brume_slot> slots = {{"result", BRUME_ACCESS_WRITE, 0}, {"missing", BRUME_ACCESS_FETCH, 0}};
+        brume_pass_desc desc = describe("evaluate", slots, {}, 0, source.c_str());
+        desc.source_name = "mine.comp";
+        desc.defines = defines.c_str();
+        return make_pass(*backend, desc);
     }
 };
 
@@ -95,29 +108,36 @@ TEST_F(Programs, VeryLongLines)
 
 TEST_F(Programs, SameTextsAreCompiledOnce)
 {
-    backend->invoke([&] {
-        auto first = backend->compile("a", scale_source, "");
-        EXPECT_EQ(backend->compile("a", scale_source, ""), first);
-        EXPECT_NE(backend->compile("a", scale_source, "#define X"), first);
-    });
+    const auto programs_made = [&](const std::string &defines) {
+        const QueryCount count;
+        backend->invoke([&] { make(storing("1.0"), defines); });
+        return QueryCount::of("glGetProgramiv") > 0;
+    };
+    EXPECT_TRUE(programs_made(""));
+    EXPECT_FALSE(programs_made(""));
+    EXPECT_TRUE(programs_made("#define X"));
 }
 
 TEST_F(Programs, SceneUniforms)
 {
     const std::string declared = "#include \"scene.glsl\"\nuniform Medium brume_medium;\nuniform Camera brume_camera;\n"
                                  "uniform float brume_output_limit;\n";
+    brume_plugin_medium medium{};
+    medium.scattering[1] = 2;
+    medium.term_count = 3;
+    medium.terms[2][3] = 5;
+    brume_plugin_camera camera{};
+    camera.center[1] = 7;
+    camera.sky = 2;
     brume_plugin_scene scene{};
-    scene.medium.scattering[1] = 2;
-    scene.medium.term_count = 3;
-    scene.medium.terms[2][3] = 5;
-    scene.camera.center[1] = 7;
-    scene.camera.sky = 2;
+    scene.medium = &medium;
+    scene.camera = &camera;
     scene.output_limit = 65504;
     const std::string at = storing("brume_medium.scattering.y * 1000.0 + brume_medium.terms[brume_medium.term_count - 1].w "
                                    "* 100.0 + brume_camera.center.y * 10.0 + float(brume_camera.sky)",
                                    declared);
     EXPECT_EQ(evaluate(at, "", scene), 2572.0f);
-    scene.camera.sky = 1;
+    camera.sky = 1;
     EXPECT_EQ(evaluate(at, "", scene), 2571.0f);
     EXPECT_EQ(evaluate(storing("brume_output_limit", declared), "", scene), 65504.0f);
 }
@@ -126,84 +146,89 @@ TEST_F(Programs, PassesSampleAndChain)
 {
     const std::vector<float> source = {1, 2, 3, 4, 5, 6, 7, 8};  // two RGBA pixels
     std::vector<float> result(8);
+    struct Constants {
+        float unused;
+        float offset[2][2];
+    };
     backend->invoke([&] {
         const brume_image from = host_image(const_cast<float *>(source.data()), 2, 1, 4);
         const brume_image to = host_image(result.data(), 2, 1, 4);
-        auto scale = backend->compile("scale", scale_source, "");
-        auto blend = backend->compile("blend", R"(
+        const std::vector<brume_slot> slots = {
+            {"not there", BRUME_ACCESS_FETCH, 0}, {"source", BRUME_ACCESS_LINEAR, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
+        const std::vector<brume_constant> constants = {{"unused", BRUME_CONSTANT_FLOAT, 1, 1, 0},
+                                                       {"offset", BRUME_CONSTANT_FLOAT, 2, 2, offsetof(Constants, offset)}};
+        const auto blend = make_pass(*backend, describe("blend", slots, constants, sizeof(Constants), R"(
 uniform sampler2D source;
 writeonly uniform image2D target;
 uniform vec2 offset[2];
 void main() { imageStore(target, ivec2(gl_GlobalInvocationID.x & 1u, 0), textureLod(source, offset[gl_GlobalInvocationID.x & 1u], 0.0)); }
-)",
-                                      "");
+)"));
         auto image = backend->import(from, 4);
         auto middle = backend->create_image(2, 1, 4, BRUME_PIXEL_F32);
         auto output = backend->begin_output(to, 4, true);
-        Pass("scale", *scale, 2, 1)
-            .bind("source", *image, BRUME_ACCESS_FETCH)
-            .bind("target", *middle, BRUME_ACCESS_WRITE)
-            .bind("not there", *image, BRUME_ACCESS_FETCH)
-            .set("factor", std::vector{2.0f})
-            .set("unused", std::vector{1})
-            .run(*backend);
-        Pass pass("blend", *blend, 2, 1);
-        const float offset[] = {-1.0f, 0.5f, 0.5f, 0.5f};  // clamped to the first pixel; between the two
-        pass.bind("source", *middle, BRUME_ACCESS_LINEAR).bind("target", *output, BRUME_ACCESS_WRITE);
-        pass.uniforms.push_back({"offset", BRUME_UNIFORM_FLOAT, 2, 2, 0, offset});
-        pass.run(*backend);
+        scale(*backend, *image, *middle, 2.0f);
+        const Constants given{7, {{-1.0f, 0.5f}, {0.5f, 0.5f}}};  // clamped to the first pixel; between the two
+        const brume_plugin_image images[] = {image.get(), middle.get(), output.get()};
+        backend->run(*blend, images, &given, 2, 1, brume_plugin_scene{}, nullptr, nullptr);
         backend->finish_output(to, *output);
     });
     EXPECT_EQ(result, (std::vector<float>{2, 4, 6, 8, 6, 8, 10, 12}));
 }
 
+// Passes and their shaders must agree: what nobody would set, or would set otherwise, is named.
 TEST_F(Programs, MistakesOfEffectsAreNamed)
 {
-    backend->invoke([&] {
-        auto program = backend->compile("scale", scale_source, "");
-        auto image = backend->create_image(4, 4, 4, BRUME_PIXEL_F32);
-        auto good = [&] {
-            Pass pass("p", *program, 4, 4);
-            pass.bind("source", *image, BRUME_ACCESS_FETCH).bind("target", *image, BRUME_ACCESS_WRITE);
-            return pass;
-        };
-        auto message = [&](const std::function<void(Pass &)> &spoil) {
-            Pass pass = good();
-            spoil(pass);
-            const Failure failure = failure_of([&] { pass.run(*backend); });
-            EXPECT_EQ(failure.status, BRUME_ERROR_ARGUMENT) << failure.message;
-            return failure.message;
-        };
-        auto expect = [](const std::string &text, const char *part) {
-            EXPECT_NE(text.find(part), std::string::npos) << text;
-        };
-        EXPECT_EQ(failure_of([&] { good().run(*backend); }).status, BRUME_OK);
-        expect(message([](Pass &p) { p.pass.program = nullptr; }), "program is NULL");
-        expect(message([](Pass &p) { p.pass.name = nullptr; }), "name is NULL");
-        expect(message([](Pass &p) { p.pass.width = 0; }), "0 x 4");
-        expect(message([](Pass &p) { p.bindings[0].name = nullptr; }), "bindings[0]: its name is NULL");
-        expect(message([](Pass &p) { p.bindings[1].image = nullptr; }), "\"target\": its image is NULL");
-        expect(message([](Pass &p) { p.bindings[0].access = 7; }), "access 7");
-        expect(message([](Pass &p) { p.bindings[0].access = BRUME_ACCESS_WRITE; }), "sampler2D");
-        expect(message([](Pass &p) { p.bindings[1].access = BRUME_ACCESS_LINEAR; }), "image2D");
-        expect(message([](Pass &p) { p.set("factor", std::vector{1.0f, 2.0f}); }), "is float");
-        expect(message([](Pass &p) { p.set("factor", std::vector{1}); }), "is float");
-        expect(message([](Pass &p) { p.set("brume_grid", std::vector{1, 1}); }), "set by the host");
-        expect(message([](Pass &p) { p.set("factor", std::vector<float>(5)); }), "5 components");
-        expect(message([](Pass &p) { p.uniforms.push_back({"factor", 9, 1, 1, 0, &p}); }), "type 9");
-        expect(message([](Pass &p) { p.uniforms.push_back({"factor", 0, 1, 0, 0, &p}); }), "count 0");
-        expect(message([](Pass &p) { p.uniforms.push_back({"factor", 0, 1, 1, 0, nullptr}); }), "data is NULL");
-        expect(message([](Pass &p) { p.uniforms.push_back({nullptr, 0, 1, 1, 0, &p}); }), "name is NULL");
-    });
+    const std::string good = storing("texelFetch(source, ivec2(0), 0) * factor + vec4(float(count))",
+                                     "uniform sampler2D source;\nuniform float factor;\nuniform int count;");
+    const std::vector<brume_slot> slots = {{"result", BRUME_ACCESS_WRITE, 0}, {"source", BRUME_ACCESS_FETCH, 0}};
+    const std::vector<brume_constant> constants = {{"factor", BRUME_CONSTANT_FLOAT, 1, 1, 0},
+                                                   {"count", BRUME_CONSTANT_INT, 1, 1, 4}};
+    using Slots = std::vector<brume_slot>;
+    using Constants = std::vector<brume_constant>;
+    const auto failure = [&](const Slots &s, const Constants &c, const std::string &source) {
+        return failure_of([&] { backend->invoke([&] { make_pass(*backend, describe("p", s, c, 8, source.c_str())); }); });
+    };
+    const auto refused = [&](const Slots &s, const Constants &c, brume_status status, const std::string &part) {
+        const Failure got = failure(s, c, good);
+        EXPECT_EQ(got.status, status) << got.message;
+        EXPECT_NE(got.message.find(part), std::string::npos) << "no \"" << part << "\" in " << got.message;
+    };
+    EXPECT_EQ(failure(slots, constants, good).message, "");
+    refused({slots[0]}, constants, BRUME_ERROR_ARGUMENT,
+            "declares sampler2D source, which is not among the slots of pass \"p\"");
+    refused({slots[1]}, constants, BRUME_ERROR_ARGUMENT, "declares image2D result, which is not among the slots");
+    refused({slots[0], {"source", BRUME_ACCESS_WRITE, 0}}, constants, BRUME_ERROR_ARGUMENT,
+            "declares source as sampler2D; pass \"p\" has a slot for writing there");
+    refused({{"result", BRUME_ACCESS_LINEAR, 0}, slots[1]}, constants, BRUME_ERROR_ARGUMENT,
+            "declares result as image2D; pass \"p\" has a slot for reading there");
+    refused(slots, {constants[0]}, BRUME_ERROR_ARGUMENT,
+            "declares int count, which is not among the constants of pass \"p\"");
+    refused(slots, {{"factor", BRUME_CONSTANT_INT, 1, 1, 0}, constants[1]}, BRUME_ERROR_ARGUMENT,
+            "declares factor as float; pass \"p\" has ints of 1 components there");
+    refused(slots, {{"factor", BRUME_CONSTANT_FLOAT, 2, 1, 0}, {"count", BRUME_CONSTANT_INT, 1, 1, 0}}, BRUME_ERROR_ARGUMENT,
+            "declares factor as float; pass \"p\" has floats of 2 components there");
+
+    const auto host_uniform = [&](const std::string &declared, const std::string &used) {
+        const Failure got = failure({slots[0]}, {}, storing("vec4(" + used + ")", declared));
+        EXPECT_EQ(got.status, BRUME_ERROR_GL) << got.message;
+        EXPECT_NE(got.message.find("is none that the host sets"), std::string::npos) << got.message;
+    };
+    host_uniform("uniform float brume_gird;", "brume_gird");
+    host_uniform("uniform vec2 brume_output_limit;", "brume_output_limit.x");
+    host_uniform("uniform struct { float scatering; } brume_medium;", "brume_medium.scatering");
+    host_uniform("uniform struct { float scattering; } brume_medium;", "brume_medium.scattering");
 }
 
 // Not what the host, or the pass before, has on that unit.
-TEST_F(Programs, UnboundImagesReadAsZeroAndDropWrites)
+TEST_F(Programs, UnboundImagesReadAsBlackAndDropWrites)
 {
-    EXPECT_EQ(evaluate(storing("texelFetch(missing, ivec2(0), 0).x + 1.0", "uniform sampler2D missing;")), 1.0f);
+    const std::string declared = "uniform sampler2D missing;", texel = "texelFetch(missing, ivec2(0), 0)";
+    EXPECT_EQ(evaluate(storing(texel + ".x + 1.0", declared)), 1.0f);
+    EXPECT_EQ(evaluate(storing(texel + ".w + dot(" + texel + ".xyz, vec3(10.0))", declared)), 1.0f);
     backend->invoke([&] {
-        auto program = backend->compile("mine.comp", storing("1.0"), "");
-        Pass("evaluate", *program, 1, 1).run(*backend);
+        const auto pass = make(storing("1.0"));
+        const brume_plugin_image images[] = {nullptr, nullptr};
+        backend->run(*pass, images, nullptr, 1, 1, brume_plugin_scene{}, nullptr, nullptr);
     });
 }
 
@@ -236,11 +261,11 @@ TEST_F(Programs, ImagesArePooled)
 TEST_F(Programs, ImagesAndProgramsOutliveTheBackend)
 {
     std::shared_ptr<Image> image;
-    std::shared_ptr<Program> program;
+    std::shared_ptr<Pass> pass;
     std::unique_ptr<FrameTimer> timer;
     backend->invoke([&] {
         image = backend->create_image(8, 8, 1, BRUME_PIXEL_F16);
-        program = backend->compile("scale", scale_source, "");
+        pass = make(storing("1.0"));
         timer = backend->create_timer();
         timer->begin();
         timer->end();
@@ -278,17 +303,13 @@ TEST_F(Programs, Timers)
     backend->invoke([&] {
         auto timer = backend->create_timer();
         EXPECT_TRUE(timer->milliseconds(2).empty());
-        auto program = backend->compile("scale", scale_source, "");
         auto from = backend->create_image(512, 512, 4, BRUME_PIXEL_F32);
         auto to = backend->create_image(512, 512, 4, BRUME_PIXEL_F32);
         auto frame = [&] {
             timer->begin();
             for (int entry : {0, 1, 0, -1}) {
                 timer->mark(entry);
-                Pass("p", *program, 512, 512)
-                    .bind("source", *from, BRUME_ACCESS_FETCH)
-                    .bind("target", *to, BRUME_ACCESS_WRITE)
-                    .run(*backend);
+                scale(*backend, *from, *to, 1.0f);
             }
         };
         for (int i = 0; i < 3; ++i) {
@@ -305,13 +326,12 @@ TEST_F(Programs, Timers)
     });
 }
 
-TEST_F(Programs, CpuServicesAreRefused)
+TEST_F(Programs, PassesWithoutAShaderAreRefused)
 {
-    backend->invoke([&] {
-        auto image = backend->create_image(1, 1, 1, BRUME_PIXEL_F32);
-        EXPECT_EQ(failure_of([&] { backend->rows(1, 1, nullptr, nullptr); }).status, BRUME_ERROR_INTERNAL);
-        EXPECT_EQ(failure_of([&] { backend->pixels(*image); }).status, BRUME_ERROR_INTERNAL);
-    });
+    const Failure got =
+        failure_of([&] { backend->invoke([&] { make_pass(*backend, describe("p", {}, {}, 0, nullptr)); }); });
+    EXPECT_EQ(got.status, BRUME_ERROR_UNSUPPORTED);
+    EXPECT_NE(got.message.find("pass \"p\" has no shader"), std::string::npos) << got.message;
     EXPECT_EQ(failure_of([&] { backend->flush(); }).status, BRUME_ERROR_INTERNAL) << "outside invoke()";
 }
 

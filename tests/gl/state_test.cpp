@@ -22,7 +22,6 @@ void run_frame(Backend &backend, const brume_image &texture)
     const std::vector<float> source = ramp(width * height * 4);
     std::vector<float> packed(source.size()), repacked(width * height * 3);
     backend.invoke([&] {
-        auto program = backend.compile("scale", scale_source, "");
         auto timer = backend.create_timer();
         timer->begin();
         const brume_image images[] = {host_image(packed.data(), width, height, 4),
@@ -32,11 +31,7 @@ void run_frame(Backend &backend, const brume_image &texture)
             timer->mark(0);
             auto from = backend.import(host_image(const_cast<float *>(source.data()), width, height, 4), 4);
             auto to = backend.begin_output(output, 4, true);
-            Pass("scale", *program, width, height)
-                .bind("source", *from, BRUME_ACCESS_LINEAR)
-                .bind("target", *to, BRUME_ACCESS_WRITE)
-                .set("factor", std::vector{2.0f})
-                .run(backend);
+            scale(backend, *from, *to, 2.0f, BRUME_ACCESS_LINEAR);
             backend.finish_output(output, *to);
         }
         timer->end();
@@ -87,7 +82,7 @@ TEST_P(State, PreserveRestoresAllOfIt)
         EXPECT_EQ(failure_of([&] {
                       backend->invoke([&] {
                           auto scratch = backend->import(image, 4);
-                          backend->compile("broken", "nonsense", "");
+                          make_pass(*backend, describe("broken", {}, {}, 0, "nonsense"));
                       });
                   }).status,
                   BRUME_ERROR_GL);

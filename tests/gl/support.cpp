@@ -1,5 +1,7 @@
 #include "support.h"
 
+#include "core/pass_layout.h"
+
 namespace brume::test {
 
 std::unique_ptr<Backend> owned_backend()
@@ -41,45 +43,31 @@ brume_image texture_image(GLuint texture, int32_t width, int32_t height, uint32_
     return image;
 }
 
-Pass::Pass(const char *name, Program &program, int32_t width, int32_t height)
+std::shared_ptr<Pass> make_pass(Backend &backend, const brume_pass_desc &desc)
 {
-    pass.struct_size = sizeof pass;
-    pass.name = name;
-    pass.program = &program;
-    pass.width = width;
-    pass.height = height;
+    return backend.create_pass(desc, layout_of(desc));
 }
 
-Pass &Pass::bind(const char *name, Image &image, uint32_t access)
+brume_pass_desc describe(const char *name, const std::vector<brume_slot> &slots,
+                         const std::vector<brume_constant> &constants, uint32_t constant_size, const char *source)
 {
-    bindings.push_back({name, &image, access, 0});
-    return *this;
+    brume_pass_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.name = name;
+    desc.slots = slots.data();
+    desc.slot_count = uint32_t(slots.size());
+    desc.constants = constants.data();
+    desc.constant_count = uint32_t(constants.size());
+    desc.constant_size = constant_size;
+    desc.source = source;
+    return desc;
 }
 
-Pass &Pass::set(const char *name, const std::vector<float> &values)
+void scale(Backend &backend, Image &from, Image &to, float factor, uint32_t access)
 {
-    floats.push_back(values);
-    uniforms.push_back({name, BRUME_UNIFORM_FLOAT, uint32_t(values.size()), 1, 0, floats.back().data()});
-    return *this;
-}
-
-Pass &Pass::set(const char *name, const std::vector<int32_t> &values)
-{
-    ints.push_back(values);
-    uniforms.push_back({name, BRUME_UNIFORM_INT, uint32_t(values.size()), 1, 0, ints.back().data()});
-    return *this;
-}
-
-void Pass::run(Backend &backend, const brume_plugin_scene &scene)
-{
-    pass.bindings = bindings.data();
-    pass.binding_count = uint32_t(bindings.size());
-    pass.uniforms = uniforms.data();
-    pass.uniform_count = uint32_t(uniforms.size());
-    backend.run(pass, scene);
-}
-
-const char *const scale_source = R"(
+    const std::vector<brume_slot> slots = {{"source", access, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
+    const std::vector<brume_constant> constants = {{"factor", BRUME_CONSTANT_FLOAT, 1, 1, 0}};
+    const char *const source = R"(
 uniform sampler2D source;
 writeonly uniform image2D target;
 uniform float factor;
@@ -91,6 +79,10 @@ void main()
     imageStore(target, at, texelFetch(source, at, 0) * factor);
 }
 )";
+    const auto pass = make_pass(backend, describe("scale", slots, constants, sizeof factor, source));
+    const brume_plugin_image images[] = {&from, &to};
+    backend.run(*pass, images, &factor, to.width, to.height, brume_plugin_scene{}, nullptr, nullptr);
+}
 
 std::vector<float> ramp(size_t count)
 {

@@ -25,23 +25,15 @@ Failure failure_of(const std::function<void()> &work);
 brume_image host_image(void *data, int32_t width, int32_t height, uint32_t channels, uint32_t pixel = BRUME_PIXEL_F32);
 brume_image texture_image(GLuint texture, int32_t width, int32_t height, uint32_t channels = 4);
 
-// A pass with its bindings and uniforms, as effects build them.
-struct Pass {
-    Pass(const char *name, Program &program, int32_t width, int32_t height);
-    Pass &bind(const char *name, Image &image, uint32_t access);
-    Pass &set(const char *name, const std::vector<float> &values);
-    Pass &set(const char *name, const std::vector<int32_t> &values);
-    void run(Backend &backend, const brume_plugin_scene &scene = {});
+// A pass as plans make theirs.
+std::shared_ptr<Pass> make_pass(Backend &backend, const brume_pass_desc &desc);
 
-    brume_plugin_pass pass{};
-    std::vector<brume_plugin_binding> bindings;
-    std::vector<brume_plugin_uniform> uniforms;
-    std::vector<std::vector<float>> floats;
-    std::vector<std::vector<int32_t>> ints;
-};
+// What a pass of the tests has: a name, slots, constants and a shader.
+brume_pass_desc describe(const char *name, const std::vector<brume_slot> &slots,
+                         const std::vector<brume_constant> &constants, uint32_t constant_size, const char *source);
 
-// target = source * factor, pixel by pixel.
-extern const char *const scale_source;
+// to = from * factor, pixel by pixel; the pass's shader samples `from` by `access`.
+void scale(Backend &backend, Image &from, Image &to, float factor, uint32_t access = BRUME_ACCESS_FETCH);
 
 std::vector<float> ramp(size_t count);
 

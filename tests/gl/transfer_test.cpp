@@ -147,14 +147,9 @@ TEST_F(Transfer, FloatsBecomeTheNearestHalves)
     std::vector<uint16_t> written(floats.size());
     const brume_image output = host_image(written.data(), 64, 16, 4, BRUME_PIXEL_F16);
     backend->invoke([&] {
-        auto program = backend->compile("scale", scale_source, "");
         auto source = backend->import(host_image(floats.data(), 64, 16, 4), 4);
         auto target = backend->begin_output(output, 4, true);
-        Pass("scale", *program, 64, 16)
-            .bind("source", *source, BRUME_ACCESS_FETCH)
-            .bind("target", *target, BRUME_ACCESS_WRITE)
-            .set("factor", std::vector{1.0f})
-            .run(*backend);
+        scale(*backend, *source, *target, 1.0f);
         backend->finish_output(output, *target);
     });
     EXPECT_EQ(written, halves);

@@ -84,8 +84,8 @@ TEST_F(EffectsTest, RefusesWithTheReason)
     const std::string effect_size = std::to_string(sizeof(brume_effect));
     const std::map<std::string, std::string> refusals{
         {"missing_symbol", "does not export brume_plugin_effect"},
-        {"wrong_abi", "made for plugin ABI 99; this library has ABI 1"},
-        {"null_table", "brume_plugin_effect returned NULL: it cannot work with plugin ABI 1"},
+        {"wrong_abi", "made for plugin ABI 100; this library knows ABI 2"},
+        {"null_table", "brume_plugin_effect returned NULL: it cannot work with plugin ABI 2"},
         {"throws_in_entry", "brume_plugin_effect threw an exception: \"thrown in entry\""},
         {"throws_int_in_entry", "brume_plugin_effect threw something that is not a std::exception"},
         {"struct_size_zero", "effect.struct_size: 0; expected " + effect_size},
@@ -101,8 +101,6 @@ TEST_F(EffectsTest, RefusesWithTheReason)
         {"null_execute", "effect.execute: NULL; expected a function"},
         {"bad_thread_safety", "effect.thread_safety: 7; expected a BRUME_THREADS_... of this library"},
         {"bad_wanted", "effect.wanted: 7; expected a BRUME_WANTED_... of this library"},
-        {"unknown_outputs", "effect.outputs: 0x100; expected BRUME_OUTPUT_... flags of this library"},
-        {"attenuates_two", "effect.attenuates: 2; expected 0 or 1"},
         {"billion_parameters", "parameter_count: 1000000000; expected at most 256"},
         {"null_parameters", "parameters: NULL; expected 2 of them"},
         {"null_parameter_name", "parameters[1].name: NULL; expected a string"},
@@ -119,6 +117,26 @@ TEST_F(EffectsTest, RefusesWithTheReason)
         {"choices_of_number", "parameter \"second\".choices: \"paper|reference\"; expected \"\" for a parameter that is "
                               "no choice"},
         {"bad_stride", "parameters[1].struct_size: 7; expected " + std::to_string(sizeof(brume_parameter_info))},
+        {"too_many_layers", "layers: 65 of them; expected at most 64"},
+        {"null_layers", "layers: NULL; expected 2 of them"},
+        {"null_layer_name", "layers[1].name: NULL; expected a string"},
+        {"bad_layer_name", "layers[1].name: \"Depth Of Field\"; expected [a-z][a-z0-9_]*, at most 63 bytes"},
+        {"null_layer_help", "layers[1].help: NULL; expected a string"},
+        {"layer_without_direction", "layers[1].flags: 0x0; expected one of BRUME_LAYER_INPUT and BRUME_LAYER_OUTPUT"},
+        {"layer_of_both_directions", "layers[1].flags: 0x3; expected one of BRUME_LAYER_INPUT and BRUME_LAYER_OUTPUT"},
+        {"unknown_layer_flag", "layers[1].flags: 0x102; expected BRUME_LAYER_... flags of this library"},
+        {"needed_output", "layers[1].flags: 0x6; expected BRUME_LAYER_NEEDED of inputs only"},
+        {"layer_of_two_channels", "layers[1].channels: 2; expected 1 or 3"},
+        {"duplicate_layer", "layers[1].name: \"normals\"; another layer has that name"},
+        {"bad_layer_stride", "layers[1].struct_size: 12; expected " + std::to_string(sizeof(brume_layer_info))},
+        {"too_many_makes", "makes: 65 of them; expected at most 64"},
+        {"null_makes", "makes: NULL; expected at most 64"},
+        {"null_make", "makes[1]: NULL; expected a string"},
+        {"bad_make", "makes[1]: \"Second\"; expected [a-z][a-z0-9_]*, at most 63 bytes"},
+        {"make_twice", "makes[1]: \"first_product\" is there twice"},
+        {"too_many_uses", "uses: 65 of them; expected at most 64"},
+        {"null_use", "uses[1]: NULL; expected a string"},
+        {"use_twice", "uses[1]: \"density\" is there twice"},
         {"well_behaved_again",
          "the effect \"well_behaved\" is there already, from " BRUME_TEST_PLUGIN_DIR "/well_behaved.so"},
     };
@@ -170,7 +188,7 @@ TEST_F(EffectsTest, FindNamesTheNearest)
               "no effect \"wel_behaved\"; did you mean \"well_behaved\"?");
     EXPECT_EQ(error_of(BRUME_ERROR_NOT_FOUND, [&] { registry.find("wrong_abi"); }),
               "no effect \"wrong_abi\": the plugin " BRUME_TEST_PLUGIN_DIR
-              "/wrong_abi.so was refused: made for plugin ABI 99; this library has ABI 1");
+              "/wrong_abi.so was refused: made for plugin ABI 100; this library knows ABI 2");
     EXPECT_EQ(error_of(BRUME_ERROR_NOT_FOUND, [] { EffectRegistry().find("fog"); }), "no effect \"fog\"");
 }
 

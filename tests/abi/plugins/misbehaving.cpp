@@ -9,6 +9,13 @@ namespace {
 constexpr std::string_view test_case = TEST_CASE;
 constexpr brume_status nonsense = -123456789;
 
+brume_status throwing_rows(const brume_plugin_rows *, int32_t, int32_t)
+{
+    throw std::runtime_error("thrown in rows");
+}
+
+brume_pass pass = nullptr;
+
 brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *, void **state)
 {
     static int something;
@@ -20,12 +27,14 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
     if (test_case == "plan_without_entry")
         return BRUME_OK;
     const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0};
-    return services->add_entry(host, &entry);
-}
-
-brume_status throwing_rows(void *, int32_t, int32_t)
-{
-    throw std::runtime_error("thrown in rows");
+    if (brume_status status = services->add_entry(host, &entry); status || test_case != "throws_in_rows")
+        return status;
+    brume_pass_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.name = "pass";
+    desc.rows = throwing_rows;
+    desc.grain = 1;
+    return services->create_pass(host, &desc, &pass);
 }
 
 brume_status execute(const brume_services *services, brume_host host, void *, const brume_plugin_frame *)
@@ -35,7 +44,7 @@ brume_status execute(const brume_services *services, brume_host host, void *, co
     if (test_case == "throws_int_in_execute")
         throw 42;
     if (test_case == "throws_in_rows")
-        return services->rows(host, "pass", 64, 1, throwing_rows, nullptr);
+        return services->run(host, pass, nullptr, nullptr, 1, 64, nullptr);
     if (test_case == "nonsense_status")
         return nonsense;
     if (test_case == "fails_without_message")
@@ -59,10 +68,15 @@ const brume_effect effect{
     .order = 200,
     .thread_safety = BRUME_THREADS_SAFE,
     .wanted = BRUME_WANTED_NEVER,
-    .outputs = 0,
-    .attenuates = 0,
     .parameter_count = 0,
+    .layer_count = 0,
+    .make_count = 0,
+    .use_count = 0,
+    .reserved = 0,
     .parameters = nullptr,
+    .layers = nullptr,
+    .makes = nullptr,
+    .uses = nullptr,
     .plan = plan,
     .execute = execute,
     .destroy = destroy,

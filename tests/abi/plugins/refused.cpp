@@ -35,6 +35,12 @@ std::array<brume_parameter_info, 2> parameters{{
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 1.0, 0.5, "second", "", "Second", ""},
 }};
 
+std::array<brume_layer_info, 2> layers{{
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "normals", "Normals"},
+    {sizeof(brume_layer_info), BRUME_LAYER_OUTPUT, 1, 0, "weight", "Weight"},
+}};
+std::array<const char *, 2> makes{"first_product", "second_product"}, uses{"density", "lights"};
+
 Table table{{
     .struct_size = sizeof(brume_effect),
     .abi = BRUME_PLUGIN_ABI,
@@ -43,10 +49,15 @@ Table table{{
     .order = 200,
     .thread_safety = BRUME_THREADS_SAFE,
     .wanted = BRUME_WANTED_NEVER,
-    .outputs = 0,
-    .attenuates = 0,
     .parameter_count = 2,
+    .layer_count = 2,
+    .make_count = 2,
+    .use_count = 2,
+    .reserved = 0,
     .parameters = parameters.data(),
+    .layers = layers.data(),
+    .makes = makes.data(),
+    .uses = uses.data(),
     .plan = plan,
     .execute = execute,
     .destroy = destroy,
@@ -92,10 +103,16 @@ void break_effect(brume_effect &effect)
         effect.thread_safety = 7;
     if (test_case == "bad_wanted")
         effect.wanted = 7;
-    if (test_case == "unknown_outputs")
-        effect.outputs = 0x100;
-    if (test_case == "attenuates_two")
-        effect.attenuates = 2;
+    if (test_case == "too_many_layers")
+        effect.layer_count = 65;
+    if (test_case == "null_layers")
+        effect.layers = nullptr;
+    if (test_case == "too_many_makes")
+        effect.make_count = 65;
+    if (test_case == "null_makes")
+        effect.makes = nullptr;
+    if (test_case == "too_many_uses")
+        effect.use_count = 65;
     if (test_case == "billion_parameters")
         effect.parameter_count = 1000000000u;
     if (test_case == "null_parameters")
@@ -130,6 +147,44 @@ void break_parameter(brume_parameter_info &parameter)
         parameter.struct_size = 7;
 }
 
+void break_layer(brume_layer_info &layer)
+{
+    if (test_case == "null_layer_name")
+        layer.name = nullptr;
+    if (test_case == "bad_layer_name")
+        layer.name = "Depth Of Field";
+    if (test_case == "null_layer_help")
+        layer.help = nullptr;
+    if (test_case == "layer_without_direction")
+        layer.flags = 0;
+    if (test_case == "layer_of_both_directions")
+        layer.flags = BRUME_LAYER_INPUT | BRUME_LAYER_OUTPUT;
+    if (test_case == "unknown_layer_flag")
+        layer.flags = BRUME_LAYER_OUTPUT | 0x100;
+    if (test_case == "needed_output")
+        layer.flags = BRUME_LAYER_OUTPUT | BRUME_LAYER_NEEDED;
+    if (test_case == "layer_of_two_channels")
+        layer.channels = 2;
+    if (test_case == "duplicate_layer")
+        layer = layers[0];
+    if (test_case == "bad_layer_stride")
+        layer.struct_size = 12;
+}
+
+void break_products()
+{
+    if (test_case == "null_make")
+        makes[1] = nullptr;
+    if (test_case == "bad_make")
+        makes[1] = "Second";
+    if (test_case == "make_twice")
+        makes[1] = makes[0];
+    if (test_case == "null_use")
+        uses[1] = nullptr;
+    if (test_case == "use_twice")
+        uses[1] = uses[0];
+}
+
 }  // namespace
 
 BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t)
@@ -142,5 +197,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t)
         throw 42;
     break_effect(table.effect);
     break_parameter(parameters[1]);
+    break_layer(layers[1]);
+    break_products();
     return &table.effect;
 }

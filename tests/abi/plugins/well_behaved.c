@@ -1,4 +1,5 @@
 /* Copies colour to output on the CPU; has a parameter of each type. Also built a second time, to be refused for its name. */
+#include <stdlib.h>
 #include <string.h>
 
 #include <brume/brume_plugin.h>
@@ -10,42 +11,56 @@ static const brume_parameter_info parameters[] = {
     {sizeof(brume_parameter_info), BRUME_PARAMETER_CHOICE, 0.0, 0.0, 1.0, "kernel", NULL, "Which", "paper|reference"},
 };
 
-struct copy {
-    brume_plugin_pixels from, to;
-};
-
-static brume_status copy_rows(void *user, int32_t first, int32_t last)
+static brume_status copy_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
-    const struct copy *copy = (const struct copy *)user;
-    for (int32_t y = first; y < last; ++y)
-        memcpy(copy->to.data + y * copy->to.row_stride, copy->from.data + y * copy->from.row_stride,
-               (size_t)copy->from.width * 4 * sizeof(float));
+    const brume_plugin_pixels *from = &call->slots[0], *to = &call->slots[1];
+    int32_t y;
+    for (y = first; y < last; ++y)
+        memcpy(to->data + y * to->row_stride, from->data + y * from->row_stride, (size_t)call->width * 4 * sizeof(float));
     return BRUME_OK;
 }
 
+struct state {
+    brume_pass copy;
+    int32_t width, height;
+};
+
 static brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state)
 {
+    static const brume_slot slots[] = {{"source", BRUME_ACCESS_FETCH, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
     const uint64_t bytes = (uint64_t)request->width * (uint64_t)request->height * 32;
     const brume_plugin_entry entry = {sizeof(brume_plugin_entry), 1, "copy", "always", bytes, 0};
-    *state = NULL;
-    if (request->backend != BRUME_BACKEND_CPU)
-        return services->fail(host, BRUME_ERROR_UNSUPPORTED, "well_behaved runs on the CPU only");
-    return services->add_entry(host, &entry);
+    brume_pass_desc desc;
+    struct state *made;
+    brume_status status = services->add_entry(host, &entry);
+    if (status != BRUME_OK)
+        return status;
+    made = (struct state *)malloc(sizeof *made);
+    if (!made)
+        return services->fail(host, BRUME_ERROR_MEMORY, "out of memory");
+    made->width = request->width;
+    made->height = request->height;
+    *state = made;
+    memset(&desc, 0, sizeof desc);
+    desc.struct_size = sizeof desc;
+    desc.name = "copy";
+    desc.slots = slots;
+    desc.slot_count = 2;
+    desc.rows = copy_rows;
+    desc.grain = 16;
+    return services->create_pass(host, &desc, &made->copy);
 }
 
 static brume_status execute(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame)
 {
-    struct copy copy;
-    brume_status status = services->pixels(host, frame->color, &copy.from);
-    (void)state;
-    if (status == BRUME_OK)
-        status = services->pixels(host, frame->output, &copy.to);
-    return status == BRUME_OK ? services->rows(host, "copy", copy.from.height, 16, copy_rows, &copy) : status;
+    const struct state *made = (const struct state *)state;
+    const brume_plugin_image images[] = {frame->color, frame->output};
+    return services->run(host, made->copy, images, NULL, made->width, made->height, NULL);
 }
 
 static void destroy(void *state)
 {
-    (void)state;
+    free(state);
 }
 
 static const brume_effect effect = {

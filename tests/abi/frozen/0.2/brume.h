@@ -22,7 +22,9 @@
  *               images of a failed brume_plan_execute() may be half written.
  *   Structs     begin with struct_size; initialise them with their BRUME_..._INIT. A field counts when it lies wholly
  *               inside the struct_size given; the others take their defaults. Size 0 is refused, and so is a larger
- *               struct whose bytes past the end known here are not all zero.
+ *               struct whose bytes past the end known here are not all zero. Fields named reserved are 0. Languages
+ *               that cannot use the macros call brume_..._init(&it, sizeof it), which sets `size` bytes (struct_size
+ *               included) to the same defaults, those unknown to this library to 0; NULL or a size below 4 is nothing.
  *   Lifetime    destroy(NULL) is legal and nothing. A scene or plan keeps its context alive. A plan copies the scene:
  *               later changes to the scene do not reach it. Pointers in a struct are read during the call only.
  *   Threads     A context with its scenes and plans is externally synchronised: one call at a time. Contexts are
@@ -40,7 +42,7 @@
 #include <stdint.h>
 
 #define BRUME_VERSION_MAJOR 0
-#define BRUME_VERSION_MINOR 1
+#define BRUME_VERSION_MINOR 2
 #define BRUME_VERSION_PATCH 0
 
 #if defined(_WIN32)
@@ -67,6 +69,7 @@ typedef int32_t brume_status;
 #define BRUME_ERROR_GL 8            /* no context, a lost one, a refused shader: the message names the step */
 #define BRUME_ERROR_PLUGIN 9        /* an effect failed, threw, or answered nonsense */
 #define BRUME_ERROR_INTERNAL 10     /* a defect of the library */
+#define BRUME_ERROR_CANCELLED 11    /* the progress callback asked for it */
 
 /* Name of a status ("BRUME_ERROR_SCENE"); of an unknown one "BRUME_ERROR_UNKNOWN". Never NULL. */
 BRUME_API const char *brume_status_name(brume_status status);
@@ -101,6 +104,11 @@ typedef struct brume_plan_t *brume_plan;
 /* Called on the thread of the API call that logs. Must not call the library. `message` lives during the call. */
 typedef void (*brume_log_callback)(void *user, uint32_t level, const char *message);
 
+/* How far a call has come, from 0 to 1, never falling. Called on the thread of the API call, now and then; must not call the
+   library. A nonzero return ends the call with BRUME_ERROR_CANCELLED as soon as may be: what it was to write is undefined
+   then, its objects stay usable. */
+typedef int32_t (*brume_progress_callback)(void *user, double fraction);
+
 typedef struct brume_context_desc {
   uint32_t struct_size;
   uint32_t backend;             /* BRUME_BACKEND_...; default AUTO */
@@ -113,8 +121,13 @@ typedef struct brume_context_desc {
   void *log_user;
   const char *plugin_directory; /* a further absolute directory of effects; NULL (default): only lib/brume/ beside the
                                    library. The working directory and the environment are never searched. */
+  brume_progress_callback progress; /* of brume_context_calibrate and brume_plan_execute; NULL (default): not asked. A frame
+                                       on GL asks at its begin and its end only: its passes are but enqueued between. */
+  void *progress_user;
 } brume_context_desc;
-#define BRUME_CONTEXT_DESC_INIT {(uint32_t)sizeof(brume_context_desc), 0u, 0u, 0u, 0u, BRUME_LOG_WARNING, NULL, NULL, NULL}
+#define BRUME_CONTEXT_DESC_INIT \
+  {(uint32_t)sizeof(brume_context_desc), 0u, 0u, 0u, 0u, BRUME_LOG_WARNING, NULL, NULL, NULL, NULL, NULL}
+BRUME_API void brume_context_desc_init(brume_context_desc *desc, size_t size);
 
 /* desc NULL: the defaults. On failure *out is NULL and, there being no context to ask, brume_message(NULL, ...) has the
    text. Loads the effects' plugins; a plugin that is refused does not fail the call (see brume_effect_info.refusal). */
@@ -124,14 +137,29 @@ BRUME_API void brume_context_destroy(brume_context context);
 typedef struct brume_context_info {
   uint32_t struct_size;
   uint32_t backend;       /* the one in use: BRUME_BACKEND_CPU or _GL */
-  uint32_t threads;
+  uint32_t threads;       /* that work at most: those asked for, or all the process may use where those are fewer */
   uint32_t reserved;
   uint64_t host_bytes;    /* image memory held now, pools included */
   uint64_t device_bytes;
   const char *device;     /* GL_RENDERER, or "CPU" */
 } brume_context_info;
 #define BRUME_CONTEXT_INFO_INIT {(uint32_t)sizeof(brume_context_info), 0u, 0u, 0u, 0u, 0u, NULL}
+BRUME_API void brume_context_info_init(brume_context_info *info, size_t size);
 BRUME_API brume_status brume_context_get_info(brume_context context, brume_context_info *info);
+
+/* Gives back the image memory that no plan holds; contexts keep some for the plans and frames to come, and free it as frames
+   pass without use. */
+BRUME_API brume_status brume_context_trim(brume_context context);
+
+/* Measures what the effects' passes take on this device, for at most 20 s; later plans predict and choose with it. Not while
+   other threads use the context. */
+BRUME_API brume_status brume_context_calibrate(brume_context context);
+
+/* The measured rates as text, "" before there are any, for another context of the same device to be given. Copied as
+   brume_message does. */
+BRUME_API size_t brume_context_calibration(brume_context context, char *buffer, size_t capacity);
+/* Fails where the text is not of this library and device, and changes nothing then. */
+BRUME_API brume_status brume_context_set_calibration(brume_context context, const char *text, size_t length);
 
 /* Copies the message of the calling thread's last failed call on this context (context NULL: of any call without one),
    "" if there was none, cut to capacity and always zero-terminated when capacity > 0. Returns the bytes that the whole
@@ -149,6 +177,7 @@ typedef struct brume_effect_info {
   const char *refusal; /* NULL; or why this plugin was not taken (then name is the file's name and it has no parameters) */
 } brume_effect_info;
 #define BRUME_EFFECT_INFO_INIT {(uint32_t)sizeof(brume_effect_info), 0u, NULL, NULL, NULL, NULL}
+BRUME_API void brume_effect_info_init(brume_effect_info *info, size_t size);
 BRUME_API uint32_t brume_effect_count(brume_context context);
 BRUME_API brume_status brume_effect_get_info(brume_context context, uint32_t index, brume_effect_info *info);
 
@@ -169,8 +198,30 @@ typedef struct brume_parameter_info {
   const char *choices;   /* "paper|reference"; "" unless type is CHOICE */
 } brume_parameter_info;
 #define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL}
+BRUME_API void brume_parameter_info_init(brume_parameter_info *info, size_t size);
 BRUME_API brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
                                                 brume_parameter_info *info);
+
+#define BRUME_LAYER_INPUT 1u    /* read */
+#define BRUME_LAYER_OUTPUT 2u   /* filled */
+#define BRUME_LAYER_NEEDED 4u   /* an input without which the effect does not run */
+#define BRUME_LAYER_OF_LIGHT 8u /* one for each light of the scene */
+
+/* A layer that an effect reads or fills. */
+typedef struct brume_layer_info {
+  uint32_t struct_size;
+  uint32_t flags;    /* BRUME_LAYER_INPUT or _OUTPUT, and what else holds */
+  uint32_t channels; /* 1 or 3 */
+  uint32_t reserved;
+  const char *name;  /* [a-z][a-z0-9_]*, at most 63 bytes */
+  const char *help;  /* one line: what it is, and what for */
+} brume_layer_info;
+#define BRUME_LAYER_INFO_INIT {(uint32_t)sizeof(brume_layer_info), 0u, 0u, 0u, NULL, NULL}
+BRUME_API void brume_layer_info_init(brume_layer_info *info, size_t size);
+
+/* How many layers an effect reads and fills; effect NULL: those that the library reads itself. 0 of an effect that is not there. */
+BRUME_API uint32_t brume_layer_count(brume_context context, const char *effect);
+BRUME_API brume_status brume_layer_get_info(brume_context context, const char *effect, uint32_t index, brume_layer_info *info);
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
@@ -199,6 +250,7 @@ typedef struct brume_density_term {
 } brume_density_term;
 #define BRUME_DENSITY_TERM_INIT \
   {(uint32_t)sizeof(brume_density_term), BRUME_DENSITY_CONSTANT, 1.0, 0.0, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}}
+BRUME_API void brume_density_term_init(brume_density_term *term, size_t size);
 
 #define BRUME_MAX_DENSITY_TERMS 16u /* exponential ones; constant terms are added up and do not count */
 
@@ -213,6 +265,7 @@ typedef struct brume_gaussian {
                          absorbed, so that extinction does not depend on it. Read by airlight only. */
 } brume_gaussian;
 #define BRUME_GAUSSIAN_INIT {(uint32_t)sizeof(brume_gaussian), 0u, {0.0, 0.0, 0.0}, 1.0, 1.0, {1.0, 1.0, 1.0}}
+BRUME_API void brume_gaussian_init(brume_gaussian *gaussian, size_t size);
 
 #define BRUME_MAX_GAUSSIANS 1000000u
 
@@ -235,6 +288,7 @@ typedef struct brume_medium {
 } brume_medium;
 #define BRUME_MEDIUM_INIT {(uint32_t)sizeof(brume_medium), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
                            0.0, 0.0, 0.0, NULL, NULL, 0u, 0u, 0.0, 1.0, {0.0, 0.0, 0.0}}
+BRUME_API void brume_medium_init(brume_medium *medium, size_t size);
 
 /* Replaces the medium; NULL takes it away. */
 BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_medium *medium);
@@ -260,6 +314,7 @@ typedef struct brume_light {
 } brume_light;
 #define BRUME_LIGHT_INIT {(uint32_t)sizeof(brume_light), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 1.0, 1.0}, \
                           0.0, 0.7853981633974483, 0.1, 0.0}
+BRUME_API void brume_light_init(brume_light *light, size_t size);
 
 #define BRUME_MAX_LIGHTS 4096u
 
@@ -290,6 +345,7 @@ typedef struct brume_camera {
 } brume_camera;
 #define BRUME_CAMERA_INIT {(uint32_t)sizeof(brume_camera), 0u, 0.8726646259971648, 1.0, {0.5, 0.5}, \
   {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}}
+BRUME_API void brume_camera_init(brume_camera *camera, size_t size);
 
 BRUME_API brume_status brume_scene_set_camera(brume_scene scene, const brume_camera *camera);
 
@@ -308,6 +364,33 @@ BRUME_API brume_status brume_scene_set_luminance_weights(brume_scene scene, cons
 BRUME_API brume_status brume_scene_set_text(brume_scene scene, const char *effect, const char *parameter, const char *value);
 BRUME_API brume_status brume_scene_set_number(brume_scene scene, const char *effect, const char *parameter, double value);
 
+#define BRUME_PRESET_NONE 0u
+#define BRUME_PRESET_DRAFT 1u     /* max_error .3 */
+#define BRUME_PRESET_STANDARD 2u  /* max_error .1 */
+#define BRUME_PRESET_FINAL 3u     /* max_error .03 */
+#define BRUME_PRESET_REFERENCE 4u /* what the others are measured by; CPU only, minutes for small frames */
+
+/* What frames may differ by from the effects' references, or take: at most one of the first three is not 0. Plans then set the
+   effects' parameters that the scene leaves open. The error is the root of relMSE, after 2 x 2 box averages and a 3 x 3 box
+   filter: sqrt(mean((a - r)^2 / (r^2 + (m / 20)^2))), m the mean of r. Errors and presets choose alike on all devices of a
+   backend; time chooses by what this context's device takes (brume_context_calibrate). */
+typedef struct brume_quality {
+  uint32_t struct_size;
+  uint32_t preset;      /* BRUME_PRESET_...; default NONE */
+  double max_error;     /* > 0, at most 10; default 0: none asked */
+  double budget_ms;     /* > 0 per frame; default 0: none asked */
+  double transmittance; /* mean transmittance of what frames show, 0 to 1, which errors depend on; default 0: taken for dense */
+  double detail;        /* how far a frame's colour is from itself after a 9 x 9 box blur, counted as max_error is, which errors
+                           depend on, too: .08 for smooth images, 1 for usual, 5 for small lamps in the dark; default 0: unknown,
+                           taken for 5 */
+} brume_quality;
+#define BRUME_QUALITY_INIT {(uint32_t)sizeof(brume_quality), BRUME_PRESET_NONE, 0.0, 0.0, 0.0, 0.0}
+BRUME_API void brume_quality_init(brume_quality *quality, size_t size);
+
+/* Replaces the quality wanted; NULL: parameters are as they are set. */
+BRUME_API brume_status brume_scene_set_quality(brume_scene scene, const brume_quality *quality);
+BRUME_API brume_status brume_scene_get_quality(brume_scene scene, brume_quality *quality);
+
 #define BRUME_UP_Y 0u /* the centre of a lat-long image is toward -z of the world, and +x to the right of it */
 #define BRUME_UP_Z 1u /* toward +y, and +x to the right of it */
 
@@ -320,8 +403,70 @@ typedef struct brume_scene_info {
   uint32_t reserved;
 } brume_scene_info;
 #define BRUME_SCENE_INFO_INIT {(uint32_t)sizeof(brume_scene_info), 0u, 0u, 0u, 0u, 0u}
+BRUME_API void brume_scene_info_init(brume_scene_info *info, size_t size);
 
 BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info *info);
+
+/* ---- images and layers ------------------------------------------------------------------------------------------- */
+
+#define BRUME_IMAGE_HOST 0u       /* data, row_stride, pixel_stride */
+#define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only. Each frame asks OpenGL what the texture is */
+#define BRUME_IMAGE_GL_TEXTURE_TRUSTED 2u
+/* The same, but OpenGL is asked nothing: the texture is as gl_texture below wants it, of width x height pixels, without
+   swizzle and with base level 0. For colour, channels is 3 or 4. An output is exactly RGBA32F or RGBA16F, or with channels 1
+   R32F or R16F, as `pixel` says. Where that is not so, the call fails with BRUME_ERROR_GL or
+   the picture is undefined. */
+
+#define BRUME_PIXEL_F32 0u
+#define BRUME_PIXEL_F16 1u
+
+#define BRUME_ORIGIN_TOP_LEFT 0u
+#define BRUME_ORIGIN_BOTTOM_LEFT 1u /* the first row is the bottom one, as GL has it; all images of a frame agree */
+
+typedef struct brume_image {
+  uint32_t struct_size;
+  uint32_t kind;         /* BRUME_IMAGE_...; default HOST */
+  uint32_t pixel;        /* BRUME_PIXEL_...; not read for GL_TEXTURE, which knows its own; default F32 */
+  uint32_t channels;     /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; depth: 1; default 4 */
+  int32_t width;
+  int32_t height;
+  uint32_t origin;       /* BRUME_ORIGIN_...; default TOP_LEFT */
+  uint32_t gl_texture;   /* a complete GL_TEXTURE_2D, level 0 is used. Colour: any float or normalised format with RGB;
+                            depth: R16, R16F, R32F, RG32F (red) or a depth format; output: RGBA32F, RGBA16F,
+                            R11F_G11F_B10F (no alpha, negative values become 0) or RGB10_A2 (clamped to [0, 1], alpha of 2
+                            bits); BLUR_RADIUS: RGBA32F, RGBA16F, R32F or R16F */
+  void *data;            /* of the first row's first pixel; read only for inputs */
+  int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
+  int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
+  int64_t plane_stride;  /* [bytes] from a channel to the next, may be negative; 0 (default): side by side in the pixel. Else
+                            packed means that the samples of a channel are side by side. */
+} brume_image;
+#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0, 0}
+BRUME_API void brume_image_init(brume_image *image, size_t size);
+
+/* A picture beside colour and depth, by the name of what it holds. Effects say which they read and fill
+   (brume_layer_get_info); those that ship know, for instance,
+     inputs   optical_depth, transmittance (of any renderer's fog: they take the place of the scene's density along the ray)
+     outputs  transmittance (exp(-tau), RGB), optical_depth (tau, RGB; sky in a medium without end gives up to 1e30 times sigma),
+              scattered (what was added to the attenuated image: scattered and emitted radiance, RGB), blur_radius (deviation of
+              the blur of this pixel's light [px], one channel), airlight (radiance of the lights scattered once toward the
+              camera, RGB), airlight_error (estimate of that radiance's error, RGB), light_airlight (airlight of one light, RGB) */
+typedef struct brume_layer {
+  uint32_t struct_size;
+  uint32_t kind;            /* BRUME_LAYER_...; default 0 */
+  const char *name;
+  const brume_image *image; /* in a format: not read. Inputs: 1 to 4 channels, of which effects see as many as they ask for (grey is
+                               spread). Outputs: 3 or 4 channels (alpha is set to 1), 1 for layers of one channel */
+  uint32_t light;           /* layers of lights: index of the light in the scene. In a format: not read */
+  uint32_t reserved;        /* 0 */
+} brume_layer;
+#define BRUME_LAYER_INIT {(uint32_t)sizeof(brume_layer), 0u, NULL, NULL, 0u, 0u}
+BRUME_API void brume_layer_init(brume_layer *layer, size_t size);
+
+#define BRUME_LAYER_WORLD 0u  /* of normals: in world axes */
+#define BRUME_LAYER_CAMERA 1u /* in camera axes (+x right, +y up, looking down -z) */
+
+#define BRUME_MAX_LAYERS 8192u /* of inputs, and of outputs, those of single lights included */
 
 /* ---- plan -------------------------------------------------------------------------------------------------------- */
 
@@ -340,14 +485,6 @@ BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info 
 #define BRUME_NONPOSITIVE_FAR 0u  /* planar and ray depth <= 0 is far: what many renderers write where nothing was hit */
 #define BRUME_NONPOSITIVE_NEAR 1u /* it is at the camera, with no medium in front */
 
-#define BRUME_OUTPUT_TRANSMITTANCE 1u /* exp(-tau), RGB */
-#define BRUME_OUTPUT_OPTICAL_DEPTH 2u /* tau, RGB; sky in a medium without end gives up to 1e30 times sigma */
-#define BRUME_OUTPUT_SCATTERED 4u     /* what was added to the attenuated image: scattered and emitted radiance, RGB */
-#define BRUME_OUTPUT_BLUR_RADIUS 8u   /* deviation of the blur of this pixel's light [px], one channel */
-#define BRUME_OUTPUT_AIRLIGHT 16u     /* radiance of the lights scattered once toward the camera, RGB */
-#define BRUME_OUTPUT_AIRLIGHT_ERROR 32u /* estimate of that radiance's error, RGB */
-#define BRUME_OUTPUT_LIGHT_AIRLIGHT 64u /* airlight of one light (brume_extra_output.light), RGB */
-
 typedef struct brume_format {
   uint32_t struct_size;
   int32_t width;              /* of the images, 1 to 65536 (and within the device's largest texture) */
@@ -361,17 +498,30 @@ typedef struct brume_format {
   double far_distance;        /* planar or ray distances >= this are far, in scene units; default 1e9. NaN, infinite and
                                  negative values are, too, and 0 but for DEVICE and NORMALIZED (see nonpositive). */
   uint32_t sky;               /* BRUME_SKY_...; default FOG */
-  uint32_t outputs;           /* extra outputs wanted: BRUME_OUTPUT_... flags; default 0 */
+  uint32_t input_count;       /* of layers that every frame brings; default 0 */
   double sky_distance;        /* for BRUME_SKY_CLAMP, in scene units, along the ray */
   uint32_t nonpositive;       /* BRUME_NONPOSITIVE_...; default FAR */
-  uint32_t reserved;          /* 0 */
+  uint32_t output_count;      /* of layers that frames may ask for; default 0 */
+  const brume_layer *inputs;  /* names and kinds, each once; each of inputs[0].struct_size */
+  const brume_layer *outputs;
 } brume_format;
-#define BRUME_FORMAT_INIT {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u}
+#define BRUME_FORMAT_INIT \
+  {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u, NULL, NULL}
+BRUME_API void brume_format_init(brume_format *format, size_t size);
 
 /* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
-   nothing more once warm. */
+   nothing more once warm. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders media. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
+
+/* Gives the plan another scene of the same structure, for the frames from now on, without planning anew: medium values, density
+   terms and Gaussians, lights, environment and camera may differ. format NULL: as it was; else depth kind, ranges, far and sky
+   distances may differ. Structure is: the effects and their parameters, the quality asked, whether there is a medium and which of
+   its values are zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian
+   densities, whether there are lights, how many coefficients the environment has; the size, the display window's presence
+   and the layers of the format. Where that differs the call fails with BRUME_ERROR_FORMAT, names what differs, and leaves the plan as
+   it was. Cheap: it copies the scene. Predictions stay those of the scene that was planned. */
+BRUME_API brume_status brume_plan_update(brume_plan plan, brume_scene scene, const brume_format *format);
 
 typedef struct brume_plan_info {
   uint32_t struct_size;
@@ -380,9 +530,16 @@ typedef struct brume_plan_info {
   uint32_t camera_needs;     /* BRUME_CAMERA_... flags that executing needs */
   const char *camera_reason; /* what needs it and why; "" */
   uint64_t image_bytes;      /* memory of the plan's own images */
-  double predicted_ms;       /* per frame, from the passes' bytes and operations at nominal rates of the backend: rough */
+  double predicted_ms;       /* per frame, from the passes' operations and bytes at the context's rates: nominal ones, or its
+                                own after brume_context_calibrate */
+  double predicted_error;    /* that 95 of 100 frames keep below, as brume_quality.max_error counts; < 0: unknown */
+  const char *quality;       /* what was chosen for the quality asked, and why; "" where none was asked */
+  int64_t clamped_values;    /* of the last execute's half outputs: those beyond 65504, written as that; < 0 before one, and
+                                for half outputs on GL, where a count would have to be waited for. The first of a context
+                                is logged. */
 } brume_plan_info;
-#define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0}
+#define BRUME_PLAN_INFO_INIT {(uint32_t)sizeof(brume_plan_info), 0u, 0u, 0u, NULL, 0u, 0.0, 0.0, NULL, 0}
+BRUME_API void brume_plan_info_init(brume_plan_info *info, size_t size);
 BRUME_API brume_status brume_plan_get_info(brume_plan plan, brume_plan_info *info);
 
 typedef struct brume_plan_entry {
@@ -397,61 +554,32 @@ typedef struct brume_plan_entry {
   double measured_ms;   /* of the last execute; < 0 before one. On GL: GPU time; asking waits for that frame to end. */
 } brume_plan_entry;
 #define BRUME_PLAN_ENTRY_INIT {(uint32_t)sizeof(brume_plan_entry), 0u, NULL, NULL, NULL, 0u, 0u, 0.0, 0.0}
+BRUME_API void brume_plan_entry_init(brume_plan_entry *entry, size_t size);
 BRUME_API brume_status brume_plan_get_entry(brume_plan plan, uint32_t index, brume_plan_entry *entry);
 
-/* ---- images and execution ---------------------------------------------------------------------------------------- */
-
-#define BRUME_IMAGE_HOST 0u       /* data, row_stride, pixel_stride */
-#define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only */
-
-#define BRUME_PIXEL_F32 0u
-#define BRUME_PIXEL_F16 1u
-
-#define BRUME_ORIGIN_TOP_LEFT 0u
-#define BRUME_ORIGIN_BOTTOM_LEFT 1u /* the first row is the bottom one, as GL has it; all images of a frame agree */
-
-typedef struct brume_image {
-  uint32_t struct_size;
-  uint32_t kind;         /* BRUME_IMAGE_...; default HOST */
-  uint32_t pixel;        /* BRUME_PIXEL_...; host memory only (a texture knows its own); default F32 */
-  uint32_t channels;     /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; depth: 1; default 4 */
-  int32_t width;
-  int32_t height;
-  uint32_t origin;       /* BRUME_ORIGIN_...; default TOP_LEFT */
-  uint32_t gl_texture;   /* a complete GL_TEXTURE_2D, level 0 is used. Colour: any float or normalised format with RGB;
-                            depth: R16F, R32F or a depth format; output: RGBA16F or RGBA32F */
-  void *data;            /* of the first row's first pixel; read only for inputs */
-  int64_t pixel_stride;  /* [bytes]; 0 (default): packed */
-  int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
-} brume_image;
-#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0}
-
-typedef struct brume_extra_output {
-  uint32_t struct_size;
-  uint32_t output;          /* one BRUME_OUTPUT_... flag, which the plan's format asked for */
-  const brume_image *image; /* 3 or 4 channels (alpha is set to 1), 1 for BLUR_RADIUS; textures as for `output` */
-  uint32_t light;           /* LIGHT_AIRLIGHT: index of the light in the scene; may be given once for each light */
-  uint32_t reserved;        /* 0 */
-} brume_extra_output;
-#define BRUME_EXTRA_OUTPUT_INIT {(uint32_t)sizeof(brume_extra_output), 0u, NULL, 0u, 0u}
+/* ---- execution --------------------------------------------------------------------------------------------------- */
 
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
-   clamped to +-65504. `output` may be the very image `color` is (in place), with the same layout; partial overlap is
-   not allowed.
+   clamped to +-65504 (brume_plan_info counts how many). `output` may be the very image `color` is (in place), with the
+   same layout; partial overlap is not allowed. Images may be different channels of the same pixels in memory.
    Host memory: returns when the output is complete. GL textures: the work is enqueued in the current context, nothing
    waits; the caller orders its own reads after it as after any GL write (a memory barrier for all uses is issued). */
 typedef struct brume_frame {
   uint32_t struct_size;
-  uint32_t extra_count;
+  uint32_t input_count;
   const brume_image *color;
   const brume_image *depth;
   const brume_image *output;
-  const brume_extra_output *extra; /* extra_count of them, each of extra[0].struct_size */
-  const brume_camera *camera;      /* what it gives goes before the scene's; NULL (default): the scene's */
-  double frame;                    /* frame number, for the scene's keyed values; default 0 */
+  const brume_layer *inputs;  /* input_count of them, each of inputs[0].struct_size: all that the plan's format names */
+  const brume_layer *outputs; /* output_count of them: any that the plan's format names, each once (and once for each light) */
+  uint32_t output_count;
+  uint32_t reserved;          /* 0 */
+  const brume_camera *camera; /* what it gives goes before the scene's; NULL (default): the scene's */
+  double frame;               /* frame number, for the scene's keyed values; default 0 */
 } brume_frame;
-#define BRUME_FRAME_INIT {(uint32_t)sizeof(brume_frame), 0u, NULL, NULL, NULL, NULL, NULL, 0.0}
+#define BRUME_FRAME_INIT {(uint32_t)sizeof(brume_frame), 0u, NULL, NULL, NULL, NULL, NULL, 0u, 0u, NULL, 0.0}
+BRUME_API void brume_frame_init(brume_frame *frame, size_t size);
 
 BRUME_API brume_status brume_plan_execute(brume_plan plan, const brume_frame *frame);
 
