@@ -509,8 +509,8 @@ typedef struct brume_format {
   {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u, NULL, NULL}
 BRUME_API void brume_format_init(brume_format *format, size_t size);
 
-/* Works out what the scene needs for images of this format. Allocates the images it will use; executing it allocates
-   nothing more once warm. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders media. */
+/* Works out what the scene needs for images of this format, and allocates its images. Once warm, executing it allocates nothing while
+   lights, Gaussians and camera stand still. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders it. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
