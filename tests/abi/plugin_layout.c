@@ -100,7 +100,7 @@ FIELD(brume_services, made, 48);
 FIELD(brume_services, run, 56);
 FIELD(brume_services, upload, 64);
 FIELD(brume_services, publish, 72);
-SIZE(brume_effect, 120);
+SIZE(brume_effect, 128);
 FIELD(brume_effect, name, 8);
 FIELD(brume_effect, order, 24);
 FIELD(brume_effect, layer_count, 40);
@@ -109,7 +109,8 @@ FIELD(brume_effect, layers, 64);
 FIELD(brume_effect, uses, 80);
 FIELD(brume_effect, plan, 88);
 FIELD(brume_effect, destroy, 104);
-FIELD(brume_effect, offer, 112);
+FIELD(brume_effect, makes_with, 112);
+FIELD(brume_effect, offer, 120);
 
 #endif
 

@@ -101,7 +101,7 @@ TEST_F(EffectsTest, RefusesWithTheReason)
         {"null_execute", "effect.execute: NULL; expected a function"},
         {"bad_thread_safety", "effect.thread_safety: 7; expected a BRUME_THREADS_... of this library"},
         {"bad_wanted", "effect.wanted: 7; expected a BRUME_WANTED_... of this library"},
-        {"billion_parameters", "parameter_count: 1000000000; expected at most 256"},
+        {"billion_parameters", "parameters: 1000000000 of them; expected at most 256"},
         {"null_parameters", "parameters: NULL; expected 2 of them"},
         {"null_parameter_name", "parameters[1].name: NULL; expected a string"},
         {"duplicate_parameter", "parameters[1].name: \"first\"; another parameter has that name"},

@@ -80,6 +80,7 @@ const brume_effect effect{
     .plan = plan,
     .execute = execute,
     .destroy = destroy,
+    .makes_with = nullptr,
     .offer = nullptr,
 };
 

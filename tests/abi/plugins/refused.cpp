@@ -61,6 +61,7 @@ Table table{{
     .plan = plan,
     .execute = execute,
     .destroy = destroy,
+    .makes_with = nullptr,
     .offer = nullptr,
 }};
 
