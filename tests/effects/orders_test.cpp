@@ -323,8 +323,9 @@ TEST(LampOrders, PixelsThatShowALampAreLeftOutOfTheFilter)
     const f32::Texture lights{values.data(), 4096, 1024, 1, 4};
     f32::Pixel pixel{};
     pixel.share = f32::vec3(0.5f);
-    auto share = [&](f32::vec2 at, float depth, int count) {
-        return f32::share_beside_all_orders(lights, count, camera, at, depth, pixel).x;
+    auto share = [&](f32::vec2 at, float distance, int count) {
+        pixel.distance = distance;
+        return f32::share_beside_lights(lights, count, 1, f32::Medium{}, camera, at, pixel).x;
     };
     EXPECT_EQ(share(f32::vec2(50), 9.8f, 1), 0) << "the lamp";
     EXPECT_EQ(share(f32::vec2(50), 20, 1), 0.5f) << "beyond it";
