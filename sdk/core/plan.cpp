@@ -66,7 +66,8 @@ bool wants(const Scene &scene, const Effect &effect)
 }  // namespace
 
 brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const Format &format, Purpose purpose)
-    : context_(std::move(context)), scene_(std::move(scene)), format_(format), structure_(scene_, format_),
+    : context_(std::move(context)), scene_(std::move(scene)), given_effects_(scene_.effects), format_(format),
+      structure_(scene_, format_),
       rehearsal_(purpose == Purpose::rehearsal)
 {
     context_->backend->invoke([&] {
@@ -332,6 +333,21 @@ void brume_host_t::warn_on_software_gl(const std::string &message)
     context_->log(BRUME_LOG_WARNING, message);
 }
 
+// What this plan has dropped and a plan of that scene would run; empty if nothing.
+std::string brume_host_t::wakes(const Scene &scene, const Format &format) const
+{
+    if (running_.size() == effects_.size())
+        return {};
+    Scene planned = scene;
+    planned.effects = scene_.effects;
+    planned.quality = {};
+    const brume_host_t rehearsal(context_, std::move(planned), format, Purpose::rehearsal);
+    for (size_t i = 0; i < std::min(effects_.size(), rehearsal.effects_.size()); ++i)
+        if (rehearsal.effects_[i].runs && !effects_[i].runs)
+            return effects_[i].effect->name + ": dropped when planned, it would run now";
+    return {};
+}
+
 void brume_host_t::update(const Scene &scene, const Format *format)
 {
     const Format &next = format ? *format : format_;
@@ -343,21 +359,22 @@ void brume_host_t::update(const Scene &scene, const Format *format)
     if (difference.empty() && !(same_layers(next.input_layers, format_.input_layers) &&
                                 same_layers(next.output_layers, format_.output_layers)))
         difference = "format: the layers";
-    if (difference.empty()) {
-        auto same_settings = [](const EffectSettings &a, const EffectSettings &b) {
-            return a.name == b.name && a.parameters == b.parameters;
-        };
-        // The scene of a plan with a wish for quality has what was chosen for it as parameters.
-        if (!scene.quality.asked() &&
-            !(scene.effects_named == scene_.effects_named && std::equal(scene.effects.begin(), scene.effects.end(),
-                                                                       scene_.effects.begin(), scene_.effects.end(), same_settings)))
-            difference = "effects: they or their parameters are others";
-    }
+    auto same_settings = [](const EffectSettings &a, const EffectSettings &b) {
+        return a.name == b.name && a.parameters == b.parameters;
+    };
+    if (difference.empty() && scene.quality != scene_.quality)
+        difference = "quality: another is asked";
+    if (difference.empty() &&
+        !(scene.effects_named == scene_.effects_named && std::equal(scene.effects.begin(), scene.effects.end(), given_effects_.begin(),
+                                                                   given_effects_.end(), same_settings)))
+        difference = "effects: they or their parameters are others";
+    if (difference.empty())
+        difference = wakes(scene, next);
     if (!difference.empty())
         throw Error(BRUME_ERROR_FORMAT, "plan: of another structure than the scene it was made for: " + difference +
                                             "; expected a new plan for it");
     Scene kept = scene;
-    std::swap(kept.effects, scene_.effects);
+    kept.effects = std::move(scene_.effects);  // with what was chosen for the quality asked
     kept.effects_named = scene_.effects_named;
     kept.quality = scene_.quality;
     scene_ = std::move(kept);
@@ -482,7 +499,11 @@ brume_plugin_image brume_host_t::create_image(const char *label, int32_t width, 
                                 width, height, channels, largest));
     if (rehearsal_)
         return image_of_rehearsal();
-    images_.push_back(context_->backend->create_image(width, height, channels, BRUME_PIXEL_F32));
+    try {
+        images_.push_back(context_->backend->create_image(width, height, channels, BRUME_PIXEL_F32));
+    } catch (const Error &error) {
+        throw Error(error.status(), fmt::format("image {}: {}", label ? label : "?", error.what()));
+    }
     image_bytes_ += uint64_t(width) * uint64_t(height) * uint64_t(channels) * 4;
     return images_.back().get();
 }

@@ -57,6 +57,8 @@ public:
 
     // Another scene of the same structure from the next frame on; throws Error(BRUME_ERROR_FORMAT) where it has another.
     void update(const brume::Scene &scene, const brume::Format *format);
+    // The effects as the scene had them before some were set for the quality that it asks.
+    void set_given_effects(std::vector<brume::EffectSettings> effects) { given_effects_ = std::move(effects); }
     void execute(const brume_frame &frame);
 
     const std::vector<brume::PlanEntry> &entries() const { return entries_; }
@@ -94,6 +96,7 @@ private:
         std::shared_ptr<brume::Image> image;
     };
 
+    std::string wakes(const brume::Scene &scene, const brume::Format &format) const;
     void choose_effects();
     void order_effects();
     void set_parameters();
@@ -117,6 +120,7 @@ private:
 
     std::shared_ptr<brume::Context> context_;
     brume::Scene scene_;
+    std::vector<brume::EffectSettings> given_effects_;  // without what was chosen for the quality asked
     brume::Format format_;
     brume::Structure structure_;
     std::vector<brume::PlannedEffect> effects_;

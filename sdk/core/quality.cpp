@@ -178,7 +178,9 @@ Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &s
     }
     if (choosing.empty())
         text += "nothing to choose from";
-    return {std::make_unique<brume_host_t>(context, std::move(chosen), format), text + fixed + (found.second ? "" : missed)};
+    auto plan = std::make_unique<brume_host_t>(context, std::move(chosen), format);
+    plan->set_given_effects(scene.effects);
+    return {std::move(plan), text + fixed + (found.second ? "" : missed)};
 }
 
 }  // namespace brume

@@ -101,6 +101,7 @@ struct Quality {
     uint32_t preset = BRUME_PRESET_NONE;
     double max_error = 0, budget_ms = 0, transmittance = 0, detail = 0;
 
+    bool operator==(const Quality &) const = default;
     bool asked() const { return preset != BRUME_PRESET_NONE || max_error > 0 || budget_ms > 0; }
 };
 

@@ -27,6 +27,7 @@ Structure::Structure(const Scene &scene, const Format &format)
 {
     add("width", format.width);
     add("height", format.height);
+    add("depth kind", format.depth_kind);
     add("a display window apart from the image", format.display_width != 0);
     add("lights", !scene.lights.empty());
     add("environment coefficients", double(scene.environment.coefficients.size()));

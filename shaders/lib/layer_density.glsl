@@ -5,7 +5,7 @@
 // transmittance. Colours that the medium does not have cannot be told apart from clear air.
 PURE float layer_depth(int mode, float value)
 {
-    float x = choose(is_finite(value), value, choose(value > R(0.0), R(1e30), R(0.0)));
+    float x = choose(is_finite(value), value, choose(value > R(0.0), R(1e30), mode == 1 ? R(0.0) : R(1.0)));
     return mode == 1 ? clamp(x, R(0.0), R(1e30)) : -log(clamp(x, R(1e-30), R(1.0)));
 }
 

@@ -515,7 +515,7 @@ BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
 /* Gives the plan another scene of the same structure, for the frames from now on, without planning anew: medium values, density
-   terms and Gaussians, lights, environment and camera may differ. format NULL: as it was; else depth kind, ranges, far and sky
+   terms and Gaussians, lights, environment and camera may differ. format NULL: as it was; else depth ranges, far and sky
    distances may differ. Structure is: the effects and their parameters, the quality asked, whether there is a medium and which of
    its values are zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian
    densities, whether there are lights, how many coefficients the environment has; the size, the display window's presence
