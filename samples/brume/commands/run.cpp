@@ -40,7 +40,10 @@ void add_run(CLI::App &app, Action &chosen)
     command->add_flag("--keep-going", options->keep_going, "Go on after a frame has failed");
     command->add_option("--stats", options->stats, "Write what was done, counted and timed as JSON")->type_name("FILE");
     command->add_flag("--quiet", options->quiet, "Say nothing but warnings and errors");
-    command->callback([&chosen, options] { chosen = [options] { return run_sequence(*options); }; });
+    command->callback([&chosen, options] {
+        options->spaces.display = !options->preview.empty();
+        chosen = [options] { return run_sequence(*options); };
+    });
 }
 
 }  // namespace brume::tool

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <ImfChromaticitiesAttribute.h>
 
 #include "exr/frame.hpp"
 
@@ -18,7 +21,9 @@ struct AddedLayer {
 };
 
 struct WriteOptions {
-    bool primaries_changed = false;  ///< the colour has been converted: `chromaticities` would be false
+    bool primaries_changed = false;  ///< the colour has been converted: what the header says of its space would be false
+    std::optional<Imf::Chromaticities> chromaticities = {};  ///< of the new space, where they are known
+    bool untouched = false;  ///< the pixels are those that were read: they are copied as they are coded
 };
 
 struct WriteReport {

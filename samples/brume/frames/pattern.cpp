@@ -67,8 +67,8 @@ FilePattern::FilePattern(std::string text) : text_(std::move(text))
         return;
     for (const char *view : {"%V", "%v"})
         if (text_.find(view, name) != std::string::npos)
-            throw RequestError(fmt::format("'{}': {} stands for a view's name (expected the name itself, and a run for each view)",
-                                           text_, view));
+            throw RequestError(fmt::format(
+                "'{}': {} stands for a view's name (expected the name itself, and a run for each view)", text_, view));
     if (const auto found = find_placeholder(text_.substr(name))) {
         before_ = text_.substr(0, name + found->at);
         after_ = text_.substr(name + found->at + found->length);
@@ -160,7 +160,8 @@ std::vector<std::string> sequence_notes(const FilePattern &input)
     if (!gaps.empty())
         notes.push_back(fmt::format("{}: no files for the frames {}", input.text(), shown(gaps)));
     if (!listing.near_misses.empty())
-        notes.push_back(fmt::format("{}: left out for their number of digits: {}", input.text(), shown(listing.near_misses)));
+        notes.push_back(
+            fmt::format("{}: left out for their number of digits: {}", input.text(), shown(listing.near_misses)));
     return notes;
 }
 
@@ -208,7 +209,8 @@ int frame_in_name(const std::filesystem::path &file)
     int frame = 0;
     std::from_chars(name.data() + from, name.data() + to, frame);
     // A minus after a separator is a sign; in "shot-005" it is the separator.
-    const bool signed_number = from > 0 && name[from - 1] == '-' && (from == 1 || name[from - 2] == '.' || name[from - 2] == '_');
+    const bool signed_number =
+        from > 0 && name[from - 1] == '-' && (from == 1 || name[from - 2] == '.' || name[from - 2] == '_');
     return signed_number ? -frame : frame;
 }
 

@@ -21,6 +21,7 @@ struct FogOptions {
     double max_error = 0, budget_ms = 0;
     std::vector<std::string> set;     ///< effect.param=value
     std::vector<std::string> layers;  ///< extra outputs by name
+    bool element = false;             ///< to go over a plate in the same fog
     PictureOptions picture;
 
     void add_to(CLI::App &command);
@@ -35,6 +36,7 @@ struct PassTime {
 struct FogReport {
     std::vector<PassTime> passes;
     std::string camera;  ///< where field of view and pose came from
+    std::vector<std::string> warnings;
     bool nothing_to_do = false;
 };
 
@@ -44,26 +46,28 @@ public:
     explicit Fogger(const FogOptions &options);
 
     /// Learns from a frame what predictions of quality depend on, where quality is asked for and the scene does not say.
-    void expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth);
+    void expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
+                int number);
 
     /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
     /// that nobody gave.
-    brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights);
+    brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights, int number);
 
     /// In place. Throws FrameError.
     FogReport fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers);
 
     brume_context context() const { return context_.get(); }
     const brume_scene_info &scene_info() const { return scene_info_; }
+    Shot shot_of(const ExrFile &file, const ColorChoice &color, int number) const;
 
 private:
     void ask_for_quality();
-    Shot shot_of(const ExrFile &file, const ColorChoice &color) const;
+    void take_uncovered_light(brume_plan plan, brume_frame call, Frame &frame) const;
 
     FogOptions options_;
     ContextHandle context_;
     SceneHandle scene_;
-    std::uint32_t scene_camera_ = 0;
+    CameraBlock scene_camera_;
     brume_scene_info scene_info_ = BRUME_SCENE_INFO_INIT;
     std::vector<LayerOutput> outputs_;
     std::map<std::vector<double>, PlanHandle> plans_;
