@@ -165,6 +165,10 @@ TEST_F(DepthTaken, AnElementBringsTheLightOfTheMediumOnlyWhereItCovers)
         ASSERT_NEAR(over[i], a[i] * (2 * t + own), 1e-4) << i;
     }
     EXPECT_EQ(read_plane(out_, "A"), a);
+    ASSERT_EQ(run({"--element", "--depth-kind", "ray", "--layers", "transmittance"}).status, 0);
+    EXPECT_EQ(read_plane(out_, "R"), over);
+    for (const double t : read_plane(out_, "brume.transmittance.R"))
+        ASSERT_NEAR(t, std::exp(-0.4), 1e-3) << "of the picture, not of the black one";
     write_exr(in_, {plate});
     EXPECT_EQ(run({"--element"}).status, 2) << "no alpha";
 }

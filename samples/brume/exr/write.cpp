@@ -36,8 +36,8 @@ namespace {
 std::string view_prefix(const Frame &frame)
 {
     return frame.color.view.empty() || frame.color.view == frame.file.default_view() || !frame.part().view.empty()
-            ? ""
-            : frame.color.view + ".";
+               ? ""
+               : frame.color.view + ".";
 }
 
 constexpr float kHalfMax = 65504.0f;

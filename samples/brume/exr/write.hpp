@@ -26,7 +26,7 @@ constexpr const char *kProvenance = "brume:provenance";
 struct WriteOptions {
     bool primaries_changed = false;  ///< the colour has been converted: what the header says of its space would be false
     std::optional<Imf::Chromaticities> chromaticities = {};  ///< of the new space, where they are known
-    bool untouched = false;  ///< the pixels are those that were read: they are copied as they are coded
+    bool untouched = false;       ///< the pixels are those that were read: they are copied as they are coded
     std::string provenance = {};  ///< empty: not written
 };
 

@@ -18,7 +18,7 @@ namespace brume::tool {
 
 struct FogOptions {
     std::string scene, backend = "auto";
-    std::string preset;               ///< quality; empty: the scene's
+    std::string preset;  ///< quality; empty: the scene's
     double max_error = 0, budget_ms = 0;
     std::vector<std::string> set;     ///< effect.param=value
     std::vector<std::string> layers;  ///< extra outputs by name

@@ -134,8 +134,9 @@ private:
         const std::uint64_t left = limits_.part_bytes - std::min(limits_.part_bytes, fogging);
         run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(left / bytes) : jobs, 1, jobs);
         if (bytes > left)
-            progress_.note(fmt::format("warning: one frame takes about {} MiB, more than the {} MiB of --mem; going on one at a time",
-                                       (bytes + fogging) >> 20, limits_.part_bytes >> 20));
+            progress_.note(
+                fmt::format("warning: one frame takes about {} MiB, more than the {} MiB of --mem; going on one at a time",
+                            (bytes + fogging) >> 20, limits_.part_bytes >> 20));
         Imf::setGlobalThreadCount(int(threads));
     }
 
@@ -233,9 +234,9 @@ private:
                                               with_color ? &frame.planes : nullptr));
             job.stats.inputs.emplace_back(input.choice.role, description(input));
             if (frame.inputs.back().outside > 0)
-                job.stats.warnings.push_back(fmt::format("{} pixels are outside the data window of the input {} and count as {}",
-                                                         frame.inputs.back().outside, input.choice.role,
-                                                         input.choice.role == "transmittance" ? 1 : 0));
+                job.stats.warnings.push_back(fmt::format(
+                    "{} pixels are outside the data window of the input {} and count as {}", frame.inputs.back().outside,
+                    input.choice.role, input.choice.role == "transmittance" ? 1 : 0));
         }
         job.stats.pixels = std::uint64_t(frame.width) * std::uint64_t(frame.height);
         job.stats.not_finite_pixels = count_not_finite(frame);
