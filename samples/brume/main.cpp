@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include <CLI/CLI.hpp>
@@ -38,6 +39,9 @@ int main(int argc, char **argv)
         return app.exit(e) == 0 ? kDone : kWrongRequest;
     } catch (const RequestError &e) {
         fmt::print(stderr, "brume: {}\n", printable(e.what()));
+        return kWrongRequest;
+    } catch (const std::filesystem::filesystem_error &e) {
+        fmt::print(stderr, "brume: {}: {}\n", printable(e.path1().string()), e.code().message());
         return kWrongRequest;
     } catch (const std::bad_alloc &) {
         fmt::print(stderr, "brume: out of memory\n");

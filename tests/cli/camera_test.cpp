@@ -6,7 +6,7 @@
 #include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
-#include "camera/camera.hpp"
+#include "camera/block.hpp"
 #include "files.hpp"
 #include "support/error.hpp"
 
@@ -139,6 +139,77 @@ TEST(CameraMetadata, VRaysMatrixIsCameraToWorld)
     EXPECT_NEAR(camera_from_metadata(header).projection->vertical_fov(), camera.projection->vertical_fov(), 1e-5);
 }
 
+/// Mantra's: the camera looks along its +z, and the NDC has the signs of one that looks along -z.
+TEST(CameraMetadata, UnderstandsMantrasMirroredMatrices)
+{
+    Imf::Header header = header_of(1600, 800);
+    const double y = std::tan(20 * kDegree), x = 2 * y;
+    M44d ndc(0.0);
+    ndc[0][0] = 1 / x;
+    ndc[1][1] = 1 / y;
+    ndc[2][2] = ndc[2][3] = -1;
+    ndc[3][2] = -0.001;
+    const M44d w2c = world_to_camera({1, 2, 3}, 0.4);
+    Imf::addWorldToCamera(header, M44f(w2c));
+    Imf::addWorldToNDC(header, M44f(w2c * ndc));
+    const Camera camera = camera_from_metadata(header);
+    ASSERT_TRUE(camera.projection && camera.pose);
+    EXPECT_TRUE(camera.notes.empty()) << camera.notes_text();
+    EXPECT_EQ(rigid_defect(*camera.pose), "");
+    EXPECT_NEAR(camera.projection->vertical_fov(), 40 * kDegree, 1e-5);
+    EXPECT_NEAR((*camera.pose)[2], std::sin(0.4), 1e-5);
+    EXPECT_NEAR((*camera.pose)[3], 1, 1e-5);
+}
+
+/// pbrt's: for column vectors, y up, 0..1 over the shorter side, in a left-handed world.
+TEST(CameraMetadata, UnderstandsPbrtsMatrices)
+{
+    for (const bool portrait : {false, true})
+        for (const double turn : {0.0, 0.7})
+            for (const double away : {0.0, 5.0}) {
+                Imf::Header header = portrait ? header_of(36, 64) : header_of(64, 36);
+                const double s = 0.5 / std::tan(22.5 * kDegree);
+                M44d camera_to_ndc(0.0);  // rows, transposed below
+                camera_to_ndc[0][0] = camera_to_ndc[1][1] = s;
+                camera_to_ndc[2][0] = camera_to_ndc[2][1] = 0.5;
+                camera_to_ndc[2][2] = camera_to_ndc[2][3] = 1;
+                camera_to_ndc[3][2] = -0.005;
+                const M44d w2c =
+                    M44d().setAxisAngle(Imath::V3d(0, 1, 0), turn) * M44d().setTranslation(Imath::V3d(0, 0, away));
+                Imf::addWorldToCamera(header, M44f(w2c.transposed()));
+                Imf::addWorldToNDC(header, M44f((w2c * camera_to_ndc).transposed()));
+                const Camera camera = camera_from_metadata(header);
+                ASSERT_TRUE(camera.projection) << camera.notes_text();
+                const double vertical = portrait ? 2 * std::atan(std::tan(22.5 * kDegree) * 64 / 36) : 45 * kDegree;
+                EXPECT_NEAR(camera.projection->vertical_fov(), vertical, 1e-4) << turn << ' ' << away;
+                EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-4);
+                EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-4);
+                EXPECT_FALSE(camera.pose);
+                EXPECT_NE(camera.notes_text().find("left-handed"), std::string::npos) << camera.notes_text();
+            }
+}
+
+TEST(CameraMetadata, RefusesWhatNoCameraHasUnlessItIsNamed)
+{
+    for (const double degrees : {0.5, 175.0}) {
+        Imf::Header header = header_of(1000, 1000);
+        header.insert("cameraFov", Imf::FloatAttribute(float(degrees)));
+        const Camera camera = camera_from_metadata(header);
+        EXPECT_FALSE(camera.projection);
+        EXPECT_NE(camera.notes_text().find("expected 1 to 170"), std::string::npos) << camera.notes_text();
+        EXPECT_NEAR(camera_from_metadata(header, Implausible::kTaken).projection->vertical_fov(), degrees * kDegree, 1e-5);
+    }
+    Imf::Header header = header_of(1000, 1000);
+    M44f w2c;
+    w2c[3][3] = 2;
+    Imf::addWorldToCamera(header, w2c);
+    EXPECT_NE(camera_from_metadata(header).notes_text().find("expected 0 0 0 1"), std::string::npos);
+    M44f sheared;
+    sheared[0][1] = 0.5;
+    header.insert("worldToCamera", Imf::M44fAttribute(sheared));
+    EXPECT_FALSE(camera_from_metadata(header).pose);
+}
+
 TEST(CameraMetadata, IgnoresNonsense)
 {
     Imf::Header header = header_of();
@@ -157,7 +228,14 @@ TEST(CameraFile, ReadsTheSceneFilesBlock)
     const Camera camera = camera_from_file(folder / "c.json", header_of(1600, 800));
     EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(0.5), 1e-9);
     EXPECT_EQ((*camera.pose)[3], 7);
-    for (const char *text : {"{}", "[1]", "{\"vertical_fov\":180}", "{\"camera_to_world\":[1,2]}", "{"}) {
+    write_text(folder / "k.json", R"({"vertical_fov":{"keys":[[1,40],[3,60]]},"pixel_aspect":2,"center":[0.25,0.5]})");
+    const Camera keyed = camera_from_file(folder / "k.json", header_of(1000, 1000), "", 2);
+    EXPECT_NEAR(keyed.projection->vertical_fov(), 50 * kDegree, 1e-9);
+    EXPECT_NEAR(keyed.projection->pixel_aspect(header_of(1000, 1000).displayWindow()), 2, 1e-9);
+    EXPECT_NEAR(keyed.projection->center()[0], 0.25, 1e-9);
+    for (const char *text : {"{\"vertical_fow\":50}", "{\"vertical_fov\":50,\"centre\":[0,0]}",
+                             "{\"camera_to_world\":[[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]}", "{}", "[1]",
+                             "{\"vertical_fov\":180}", "{\"camera_to_world\":[1,2]}", "{"}) {
         write_text(folder / "bad.json", text);
         EXPECT_THROW(camera_from_file(folder / "bad.json", header_of()), RequestError) << text;
     }

@@ -41,7 +41,10 @@ TEST(Pattern, NamesFiles)
     EXPECT_EQ(FilePattern("a.%04d.exr").at(-5), "a.-005.exr");
     EXPECT_FALSE(FilePattern("100%.exr").is_sequence());
     EXPECT_THROW(FilePattern("a##.%04d.exr"), RequestError);
-    EXPECT_THROW(FilePattern("shot##/a.exr"), RequestError);
+    EXPECT_EQ(FilePattern("shot##/@a%d/a.#.exr").at(7), "shot##/@a%d/a.0007.exr") << "folders are meant literally";
+    EXPECT_FALSE(FilePattern("plate@2x.exr").is_sequence());
+    EXPECT_EQ(FilePattern("plate@2x.@.exr").at(7), "plate@2x.7.exr");
+    EXPECT_THROW(FilePattern("shot.%V.####.exr"), RequestError);
 }
 
 TEST(Pattern, FindsWhatExists)
@@ -68,6 +71,9 @@ TEST(Pattern, PairsInputsWithOutputs)
     EXPECT_THROW(list_frames(FilePattern((folder / "a.0001.exr").string()), FilePattern("o.exr"), "1"), RequestError);
     EXPECT_EQ(frame_in_name("shot12.v2.0042.exr"), 42);
     EXPECT_EQ(frame_in_name("shot.exr"), 0);
+    EXPECT_EQ(frame_in_name("shot.-0042.exr"), -42);
+    EXPECT_EQ(frame_in_name("-7.exr"), -7);
+    EXPECT_EQ(frame_in_name("shot-0042.exr"), 42) << "the minus is a separator";
 }
 
 }  // namespace

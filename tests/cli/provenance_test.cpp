@@ -74,6 +74,18 @@ TEST_F(Provenance, MayBeLeftOutAndOneOfAnEarlierRunGoes)
     EXPECT_EQ(of(a_).find("another"), std::string::npos);
 }
 
+TEST_F(Provenance, IsSaidWherePixelsAreCopiedUndecoded)
+{
+    TestPart part{rgbz()};
+    part.edit = [](Imf::Header &h) { h.insert("brume:provenance", Imf::StringAttribute("of another picture")); };
+    write_exr(in_, {part});
+    write_text(scene_, R"({"brume":1,"medium":{"scattering":0,"absorption":0}})");
+    run(a_);
+    EXPECT_EQ(of(a_).find("brume "), 0u) << of(a_);
+    run(a_, {"--no-provenance"});
+    EXPECT_EQ(of(a_), "");
+}
+
 TEST_F(Provenance, CompareNamesAStaleGolden)
 {
     run(a_);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -107,6 +108,82 @@ TEST_F(Shared, DamagedFilesNeitherCrashNorHang)
     for ([[maybe_unused]] const auto &entry : fs::directory_iterator(folder_.path()))
         ++left;
     EXPECT_EQ(left, 1u) << "only the scene file";
+}
+
+/// Small inputs with the properties of files that went wrong.
+class SharedCases : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        if (kShared.empty() || !fs::exists(kShared / "cases"))
+            GTEST_SKIP() << "no shared cases here";
+        write_text(scene_, R"({"brume":1,"medium":{"scattering":0,"absorption":0.1}})");
+    }
+    void TearDown() override { ::unsetenv("OCIO"); }
+    static std::string file(const std::string &name) { return (kShared / "cases" / name).string(); }
+    Result run(const std::string &name, const std::vector<std::string> &more = {}) const
+    {
+        std::vector<std::string> words{"run", scene_.string(), file(name), "-o", out_.string(), "--backend", "cpu"};
+        words.insert(words.end(), more.begin(), more.end());
+        return brume(words);
+    }
+    static json info(const std::string &name, const std::vector<std::string> &more = {})
+    {
+        std::vector<std::string> words{"info", file(name), "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return json::parse(brume(words).out);
+    }
+
+    Folder folder_;
+    const fs::path scene_ = folder_ / "fog.json", out_ = folder_ / "out.exr";
+};
+
+TEST_F(SharedCases, CamerasOfOtherRenderers)
+{
+    EXPECT_NEAR(info("mantra.exr")["camera"]["vertical_fov"].get<double>(), 26.23, 0.01);
+    EXPECT_EQ(run("mantra.exr").status, 0);
+    EXPECT_EQ(run("mantra.exr", {"--vfov", "40"}).status, 0);
+    for (const char *name : {"pbrt_identity.exr", "pbrt_translated.exr"}) {
+        EXPECT_NEAR(info(name)["camera"]["vertical_fov"].get<double>(), 45, 0.01);
+        EXPECT_EQ(run(name).status, 0) << name;
+    }
+    EXPECT_NEAR(info("stereo_cameras.exr", {"--view", "left"})["camera"]["vertical_fov"].get<double>(), 40, 0.01);
+    EXPECT_NEAR(info("stereo_cameras.exr", {"--view", "right"})["camera"]["vertical_fov"].get<double>(), 90, 0.01);
+}
+
+TEST_F(SharedCases, AnamorphicPixelsCountWithTheScenesCameraAsWithTheOption)
+{
+    ASSERT_EQ(run("anamorphic.exr", {"--vfov", "50"}).status, 0);
+    const auto by_option = read_plane(out_, "R");
+    write_text(scene_, R"({"brume":1,"camera":{"vertical_fov":50},"medium":{"scattering":0,"absorption":0.1}})");
+    ASSERT_EQ(run("anamorphic.exr").status, 0);
+    EXPECT_EQ(read_plane(out_, "R"), by_option);
+}
+
+TEST_F(SharedCases, DepthOfHalfTheSizeIsRefused)
+{
+    const Result r = run("beauty.0001.exr", {"--vfov", "50", "--depth", file("half_depth.####.exr") + ":Z"});
+    EXPECT_EQ(r.status, 2);
+    EXPECT_NE(r.err.find("16 x 8"), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find("32 x 16"), std::string::npos) << r.err;
+}
+
+TEST_F(SharedCases, BrokenConfigsStopOnlyWhatNeedsThem)
+{
+    for (const char *config : {"nosl.ocio", "nolut.ocio"}) {
+        ::setenv("OCIO", file(config).c_str(), 1);
+        EXPECT_EQ(run("anamorphic.exr", {"--vfov", "50"}).status, 0) << config;
+        const Result r = run("anamorphic.exr", {"--vfov", "50", "--preview", (folder_ / "p.png").string()});
+        EXPECT_EQ(r.status, 2) << config;
+        EXPECT_NE(r.err.find(config), std::string::npos) << r.err;
+    }
+}
+
+TEST_F(SharedCases, ClaimsOfTheOldSpaceGo)
+{
+    ASSERT_EQ(run("aces_claims.exr", {"--vfov", "50", "--input-space", "ACES2065-1", "--output-space", "ACEScg"}).status, 0);
+    for (const char *name : {"acesImageContainerFlag", "adoptedNeutral", "colorInteropID", "oiio:ColorSpace"})
+        EXPECT_EQ(read_text(out_).find(name), std::string::npos) << name;
 }
 
 }  // namespace

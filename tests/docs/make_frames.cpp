@@ -34,6 +34,9 @@ void write(const std::string &file, float lamp_x)
         buffer.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(rgbz.data() + c), 4 * sizeof(float),
                                            4 * sizeof(float) * width));
     }
+    std::vector<float> alpha(width * height, 1.0f);
+    header.channels().insert("A", Imf::Channel(Imf::FLOAT));
+    buffer.insert("A", Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(alpha.data()), sizeof(float), sizeof(float) * width));
     header.insert("worldToCamera", Imf::M44fAttribute(Imath::M44f()));
     Imf::OutputFile output(file.c_str(), header);
     output.setFrameBuffer(buffer);

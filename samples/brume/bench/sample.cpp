@@ -40,14 +40,14 @@ Picture picture_of(const std::vector<float> &pixels, int width, int height, int 
     return picture;
 }
 
-Sample load_sample(const FrameFile &file, const PictureOptions &options, std::uint32_t scene_camera,
+Sample load_sample(const FrameFile &file, const PictureOptions &options, const CameraBlock &scene_camera,
                    const std::string &truth)
 {
     const ColorManager colors;
     OpenFrame open = open_frame(file, options, {});
     const DepthSource depth{open.depth_file ? &*open.depth_file : nullptr, open.depth};
     const Imf::Header &header = open.file.header(open.color.part);
-    const Shot shot = shot_of(header, open.file.parts()[open.color.part].data_window, options, scene_camera);
+    const Shot shot = shot_of(open.file, open.color, options, scene_camera, file.frame);
     Sample sample;
     sample.name = file.input.string();
     sample.format = shot.format;
@@ -58,6 +58,7 @@ Sample load_sample(const FrameFile &file, const PictureOptions &options, std::ui
     sample.channels = frame.channels;
     sample.color = std::move(frame.pixels);
     sample.depth = std::move(frame.depth);
+    options.depth_kind().convert(sample.depth);
     if (!truth.empty()) {
         ExrFile truth_file(truth);
         const ColorChoice color = resolve_color(truth_file, options.layers);

@@ -26,7 +26,7 @@ struct Sample {
 };
 
 /// The first frame of a pattern, or a file. `truth` empty: none. Throws RequestError and FrameError.
-Sample load_sample(const FrameFile &file, const PictureOptions &options, std::uint32_t scene_camera,
+Sample load_sample(const FrameFile &file, const PictureOptions &options, const CameraBlock &scene_camera,
                    const std::string &truth);
 
 /// Colour averaged over squares of `factor` pixels, depth taken from the middle of each: distances are not to be averaged.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,8 @@
 
 namespace brume::tool {
 
+class ExrFile;
+
 /// What the display window sees: slopes of its edges at unit distance along the axis.
 struct Projection {
     double left, right, bottom, top;
@@ -19,12 +20,17 @@ struct Projection {
     std::array<double, 2> center() const;  ///< of the window, from its left and its top
     double pixel_aspect(const Imath::Box2i &display) const;
 
-    static Projection from_vertical_fov(double radians, const Imath::Box2i &display, double pixel_aspect);
-    static Projection from_horizontal_fov(double radians, const Imath::Box2i &display, double pixel_aspect);
+    static Projection from_vertical_fov(double radians, const Imath::Box2i &display, double pixel_aspect,
+                                        std::array<double, 2> center = {0.5, 0.5});
+    static Projection from_horizontal_fov(double radians, const Imath::Box2i &display, double pixel_aspect,
+                                          std::array<double, 2> center = {0.5, 0.5});
 };
 
 /// Right-handed, looks down -z, +y up; row-major, points are columns.
 using Pose = std::array<double, 16>;
+
+/// What is wrong with it as a rigid motion; empty where nothing is.
+std::string rigid_defect(const Pose &pose);
 
 struct Camera {
     std::optional<Projection> projection;
@@ -34,13 +40,17 @@ struct Camera {
 
     /// Takes from `other` what is missing here.
     void fill_from(const Camera &other);
+    std::string notes_text() const;
 };
+
+/// Whether a field of view that no real camera has is taken as it stands, or noted and left.
+enum class Implausible { kRefused, kTaken };
 
 /// In this order, each part from the first that has it: worldToCamera and worldToNDC (the OpenEXR standard's), then V-Ray's
 /// cameraTransform (camera-to-world) with cameraFov, or cameraAperture and cameraFocalLength.
-Camera camera_from_metadata(const Imf::Header &header);
+Camera camera_from_metadata(const Imf::Header &header, Implausible implausible = Implausible::kRefused);
 
-/// A scene file's camera block, alone or inside a whole scene file; or an EXR file whose metadata is meant.
-Camera camera_from_file(const std::filesystem::path &file, const Imf::Header &picture);
+/// The same of a part and, for what that lacks, of the other parts of its view.
+Camera camera_from_metadata(const ExrFile &file, int part, Implausible implausible = Implausible::kRefused);
 
 }  // namespace brume::tool

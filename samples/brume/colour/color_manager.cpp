@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "colour/builtin_config.hpp"
+#include "colour/primaries.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -65,12 +66,24 @@ LuminanceWeights weights_of(const ocio::ConstConfigRcPtr &config)
 }  // namespace
 
 ColorManager::ColorManager(const ColorRequest &request)
-try {
+{
     const char *path = std::getenv("OCIO");
-    const bool from_environment = path && *path;
-    config_ = from_environment ? ocio::Config::CreateFromEnv() : builtin_config();
-    source_ = from_environment ? path : "the built-in config";
+    source_ = path && *path ? path : "the built-in config";
+    try {
+        load(request);
+    } catch (const ocio::Exception &e) {
+        const std::string why = fmt::format("OpenColorIO, {}: {}", source_, e.what());
+        if (request.display || !request.input_space.empty() || !request.output_space.empty())
+            throw RequestError(why);
+        warning_ = why + "; no colour space is asked for, and luminance weights are Rec. 709's";
+        weights_ = kRec709Luminance;
+    }
+}
 
+void ColorManager::load(const ColorRequest &request)
+{
+    const char *path = std::getenv("OCIO");
+    config_ = path && *path ? ocio::Config::CreateFromEnv() : builtin_config();
     const auto check = [&](const char *option, const std::string &space) {
         if (space.empty() || config_->getColorSpace(space.c_str()))
             return;
@@ -89,20 +102,23 @@ try {
         const auto p = config_->getProcessor(from.c_str(), to.c_str());
         return p->isNoOp() ? nullptr : p->getDefaultCPUProcessor();
     };
-    in_ = processor(input, working);
-    out_ = processor(working, output);
-    changes_space_ = !config_->getProcessor(input.c_str(), output.c_str())->isNoOp();
-    has_input_space_ = !request.input_space.empty();
-
-    const char *display = config_->getDefaultDisplay();
-    auto view = ocio::DisplayViewTransform::Create();
-    view->setSrc(working.c_str());
-    view->setDisplay(display);
-    view->setView(config_->getDefaultView(display));
-    view_ = config_->getProcessor(view)->getDefaultCPUProcessor();
+    if (!request.input_space.empty() || !request.output_space.empty()) {
+        in_ = processor(input, working);
+        out_ = processor(working, output);
+        changes_space_ = !config_->getProcessor(input.c_str(), output.c_str())->isNoOp();
+        has_input_space_ = !request.input_space.empty();
+    }
+    if (changes_space_)
+        new_chromaticities_ = primaries_of(config_, output.c_str());
+    if (request.display) {
+        const char *display = config_->getDefaultDisplay();
+        auto view = ocio::DisplayViewTransform::Create();
+        view->setSrc(working.c_str());
+        view->setDisplay(display);
+        view->setView(config_->getDefaultView(display));
+        view_ = config_->getProcessor(view)->getDefaultCPUProcessor();
+    }
     weights_ = weights_of(config_);
-} catch (const ocio::Exception &e) {
-    throw RequestError(fmt::format("OpenColorIO, {}: {}", source_.empty() ? "$OCIO" : source_, e.what()));
 }
 
 void ColorManager::to_working(float *pixels, std::size_t count, int channels) const
@@ -115,12 +131,19 @@ void ColorManager::from_working(float *pixels, std::size_t count, int channels) 
     apply(out_, pixels, count, channels);
 }
 
-LuminanceWeights ColorManager::luminance_weights(const Imf::Header &header) const
+LuminanceWeights ColorManager::luminance_weights(const Imf::Header &header, std::vector<std::string> *warnings) const
 {
     if (has_input_space_ || !Imf::hasChromaticities(header))
         return weights_;
-    const Imath::M44f to_xyz = Imf::RGBtoXYZ(Imf::chromaticities(header), 1);
-    return normalized({to_xyz[0][1], to_xyz[1][1], to_xyz[2][1]});
+    try {
+        const Imath::M44f to_xyz = Imf::RGBtoXYZ(Imf::chromaticities(header), 1);
+        if (const float sum = to_xyz[0][1] + to_xyz[1][1] + to_xyz[2][1]; sum > 0 && std::isfinite(sum))
+            return normalized({to_xyz[0][1], to_xyz[1][1], to_xyz[2][1]});
+    } catch (const std::exception &) {
+    }
+    if (warnings)
+        warnings->push_back("its chromaticities are degenerate: luminance weights are the working space's");
+    return weights_;
 }
 
 std::vector<std::uint8_t> ColorManager::to_display(const float *pixels, std::size_t count, int channels) const

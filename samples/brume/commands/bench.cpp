@@ -35,8 +35,8 @@ void check_ending(const std::string &option, const std::string &file, const std:
 
 Sample sample_of(const BenchCommand &command, brume_context context, const SceneText &scene)
 {
-    std::uint32_t camera = 0;
-    check_request(context, brume_scene_get_camera_given(make_scene(context, scene).get(), &camera), scene.name);
+    make_scene(context, scene);  // so that errors in the scene come first, and from the library
+    const CameraBlock camera = CameraBlock::of_scene(scene.text, scene.name);
     const FilePattern pattern(command.input);
     const Sample whole = [&] {
         try {

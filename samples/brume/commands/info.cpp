@@ -10,10 +10,12 @@
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "exr/depth_window.hpp"
 #include "exr/frame.hpp"
 #include "frames/pattern.hpp"
 #include "run/depth_count.hpp"
 #include "run/inputs.hpp"
+#include "run/shot.hpp"
 #include "support/error.hpp"
 #include "support/text.hpp"
 
@@ -56,22 +58,31 @@ ordered_json parts_of(const ExrFile &file)
     return parts;
 }
 
-void describe_depth(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice *color)
+void describe_depth(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice *color, int frame)
 {
     const std::string depth_file = options.picture.depth_file();
     const auto describe = [&](const ExrFile &source, const DepthChoice &depth) {
         const auto values = read_channel(source, depth.part, depth.channel);
         const DepthCount count = count_depth(values, options.picture.depth_kind(), options.picture.far);
-        info["depth"] = {{"channel", depth.channel},   {"part", source.parts()[depth.part].label()},
-                         {"chosen", depth.reason},     {"kind", options.picture.depth_kind().text()},
-                         {"far", options.picture.far}, {"data_window", window_of(source.parts()[depth.part].data_window)},
-                         {"nearest", count.nearest},   {"farthest", count.farthest},
-                         {"far_pixels", count.far},    {"nan_pixels", count.nan}};
+        info["depth"] = {{"channel", depth.channel},
+                         {"part", source.parts()[depth.part].label()},
+                         {"chosen", depth.reason},
+                         {"kind", options.picture.depth_kind().text()},
+                         {"far", options.picture.far},
+                         {"data_window", window_of(source.parts()[depth.part].data_window)},
+                         {"nearest", count.nearest},
+                         {"farthest", count.farthest},
+                         {"far_pixels", count.far},
+                         {"nan_pixels", count.nan},
+                         {"notes", depth_warnings(count, options.picture.depth_kind(), options.picture.far,
+                                                  source.parts()[depth.part].find(depth.channel)->type)}};
+        if (color)
+            check_depth_window(file, *color, source, depth);
         if (&source != &file)
             info["depth"]["file"] = source.path().string();
     };
     if (!depth_file.empty()) {
-        const ExrFile source(depth_file);
+        const ExrFile source(FilePattern(depth_file).existing_at(frame));
         return describe(source, resolve_depth(source, options.picture.depth_request(), nullptr));
     }
     std::string why_not;
@@ -83,11 +94,10 @@ void describe_depth(ordered_json &info, const ExrFile &file, const InfoOptions &
         info["depth"] = {{"none", why_not}};
 }
 
-void describe_camera(ordered_json &info, const ExrFile &file, const InfoOptions &options)
+void describe_camera(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice &color,
+                     int frame)
 {
-    const Imf::Header &header = file.header(0);
-    Camera camera = options.picture.camera_asked(header);
-    camera.fill_from(camera_from_metadata(header));
+    const Camera camera = camera_of_picture(file, color, options.picture, {}, frame);
     ordered_json &c = info["camera"] = ordered_json::object();
     if (camera.projection) {
         c["vertical_fov"] = camera.projection->vertical_fov() * 180 / M_PI;
@@ -142,6 +152,9 @@ void print_text(const ordered_json &info)
     fmt::print("file     {}\n", text(info["file"]));
     if (info.contains("frames"))
         fmt::print("frames   {}\n", text(info["frames"]));
+    if (info.contains("frame_notes"))
+        for (const auto &note : info["frame_notes"])
+            fmt::print("frames   {}\n", text(note));
     fmt::print("display  {}, pixel aspect {}\n", window_text(info["display_window"]), info["pixel_aspect"].get<double>());
     for (const auto &part : info["parts"]) {
         std::string channels;
@@ -167,6 +180,9 @@ void print_text(const ordered_json &info)
     if (info.contains("inputs"))
         for (const auto &[role, choice] : info["inputs"].items())
             fmt::print("input    {}: {}\n", printable(role), text(choice));
+    if (depth.contains("notes"))
+        for (const auto &note : depth["notes"])
+            fmt::print("depth    {}\n", text(note));
     const auto &camera = info["camera"];
     if (camera.contains("fov_from"))
         fmt::print("camera   vertical field of view {:.4g} degrees, centre ({:.4g}, {:.4g}), from {}\n",
@@ -192,6 +208,8 @@ int info(const InfoOptions &options)
     ordered_json info{{"file", file.path().string()}};
     if (pattern.is_sequence())
         info["frames"] = fmt::format("{} to {}, {} files", files.front().frame, files.back().frame, files.size());
+    if (const auto notes = sequence_notes(pattern); !notes.empty())
+        info["frame_notes"] = notes;
     info["display_window"] = window_of(file.display_window());
     info["pixel_aspect"] = file.header(0).pixelAspectRatio();
     info["parts"] = parts_of(file);
@@ -209,9 +227,9 @@ int info(const InfoOptions &options)
             throw;
         info["color"] = {{"none", e.what()}};
     }
-    describe_depth(info, file, options, color ? &*color : nullptr);
+    describe_depth(info, file, options, color ? &*color : nullptr, files.front().frame);
     describe_inputs(info, file, options, color ? &*color : nullptr, files.front().frame);
-    describe_camera(info, file, options);
+    describe_camera(info, file, options, color.value_or(ColorChoice{}), files.front().frame);
     if (options.json)
         fmt::print("{}\n", info.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     else

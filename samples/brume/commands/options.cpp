@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "exr/narrow.hpp"
+#include "frames/pattern.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -18,7 +20,13 @@ bool parse_number(const std::string &text, double &value)
     return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-constexpr std::string_view kExrColon = ".exr:";
+/// Where the colon of "FILE.exr:CHANNEL" is; npos where there is none.
+std::size_t depth_colon(const std::string &text)
+{
+    constexpr std::string_view ending = ".exr";
+    const auto at = lower(text).find(std::string(ending) + ":");
+    return at == std::string::npos ? at : at + ending.size();
+}
 
 }  // namespace
 
@@ -30,6 +38,8 @@ DepthKind DepthKind::parse(const std::string &text)
         return {kRay};
     if (text == "inverse")
         return {kInverse};
+    if (text == "negative")
+        return {kNegative};
     constexpr std::string_view prefix = "normalized:";
     if (const auto comma = text.find(','); text.starts_with(prefix) && comma != std::string::npos) {
         DepthKind kind{kNormalized};
@@ -37,8 +47,8 @@ DepthKind DepthKind::parse(const std::string &text)
             parse_number(text.substr(comma + 1), kind.far) && kind.near >= 0 && kind.far > kind.near)
             return kind;
     }
-    throw RequestError(
-        fmt::format("--depth-kind '{}': expected planar, ray, inverse or normalized:NEAR,FAR with 0 <= NEAR < FAR", text));
+    throw RequestError(fmt::format(
+        "--depth-kind '{}': expected planar, ray, negative, inverse or normalized:NEAR,FAR with 0 <= NEAR < FAR", text));
 }
 
 std::string DepthKind::text() const
@@ -50,9 +60,20 @@ std::string DepthKind::text() const
         return "ray";
     case kInverse:
         return "inverse";
+    case kNegative:
+        return "negative";
     default:
         return fmt::format("normalized:{},{}", near, far);
     }
+}
+
+void DepthKind::convert(std::vector<float> &depth) const
+{
+    if (type != kNegative)
+        return;
+    // Infinite of either sign is far.
+    for (float &z : depth)
+        z = std::isinf(z) ? std::abs(z) : -z;
 }
 
 Sky Sky::parse(const std::string &text)
@@ -83,7 +104,9 @@ void PictureOptions::add_to(CLI::App &command)
     command.add_option("--view", layers.view, "View of a stereo file")->type_name("NAME");
     command.add_option("--depth", layers.depth, "Depth channel, exact name; FILE.exr:CHANNEL for a file of its own")
         ->type_name("NAME");
-    command.add_option("--depth-kind", depth_kind_text, "planar, ray, inverse or normalized:NEAR,FAR")
+    command
+        .add_option("--depth-kind", depth_kind_text,
+                    "planar, ray, negative (planar, of the other sign), inverse or normalized:NEAR,FAR")
         ->capture_default_str()
         ->type_name("KIND");
     command.add_option("--far", far, "Distances from here on are sky, in scene units")
@@ -93,37 +116,40 @@ void PictureOptions::add_to(CLI::App &command)
     command.add_option("--sky", sky_text, "fog, keep or clamp:DISTANCE")->capture_default_str()->type_name("HOW");
     auto *fov = command.add_option("--vfov", vertical_fov, "Vertical field of view of the display window, in degrees")
                     ->type_name("DEG");
-    auto *camera =
-        command.add_option("--camera", camera_file, "Camera from a JSON file or another EXR's metadata")->type_name("FILE");
+    auto *camera = command
+                       .add_option("--camera", camera_file,
+                                   "Camera from a JSON file or another EXR's metadata, or a pattern of such files")
+                       ->type_name("FILE");
     fov->check([](const std::string &text) {
         double value = 0;
-        return parse_number(text, value) && value > 0 && value < 180 ? "" : "expected degrees, above 0 and below 180";
+        return parse_number(text, value) && value >= 1e-4 && value <= 179.9999 ? ""
+                                                                               : "expected degrees, above 0 and below 180";
     });
     fov->excludes(camera);
 }
 
 std::string PictureOptions::depth_file() const
 {
-    const auto at = layers.depth.find(kExrColon);
-    return at == std::string::npos ? "" : layers.depth.substr(0, at + kExrColon.size() - 1);
+    const auto colon = depth_colon(layers.depth);
+    return colon == std::string::npos ? "" : layers.depth.substr(0, colon);
 }
 
 LayerRequest PictureOptions::depth_request() const
 {
     LayerRequest request = layers;
-    if (const auto at = layers.depth.find(kExrColon); at != std::string::npos)
-        request.depth = layers.depth.substr(at + kExrColon.size());
+    if (const auto colon = depth_colon(layers.depth); colon != std::string::npos)
+        request.depth = layers.depth.substr(colon + 1);
     return request;
 }
 
-Camera PictureOptions::camera_asked(const Imf::Header &header) const
+Camera PictureOptions::camera_asked(const Imf::Header &picture, const CameraBlock &scene, const std::string &view,
+                                    int frame) const
 {
     Camera camera;
     if (!camera_file.empty())
-        camera = camera_from_file(camera_file, header);
+        camera = camera_from_file(FilePattern(camera_file).existing_at(frame), picture, view, frame);
     if (vertical_fov > 0) {
-        camera.projection = Projection::from_vertical_fov(vertical_fov * std::numbers::pi / 180, header.displayWindow(),
-                                                          header.pixelAspectRatio());
+        camera.projection = scene.with_vertical_fov(vertical_fov * std::numbers::pi / 180, frame, picture);
         camera.projection_source = "--vfov";
     }
     return camera;

@@ -1,23 +1,27 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
 }
 
-#include "camera/camera.hpp"
+#include "camera/block.hpp"
 #include "exr/resolve.hpp"
 
 namespace brume::tool {
 
 struct DepthKind {
-    enum Type { kPlanar, kRay, kInverse, kNormalized } type = kPlanar;
+    enum Type { kPlanar, kRay, kInverse, kNormalized, kNegative } type = kPlanar;
     double near = 0, far = 1;   ///< of normalized depth
     bool zero_is_near = false;  ///< planar and ray depth <= 0 is at the camera, not sky
 
     static DepthKind parse(const std::string &text);
     std::string text() const;
+
+    /// Makes of depth as it is stored what the library takes this kind for: `negative` is planar with the other sign.
+    void convert(std::vector<float> &depth) const;
 };
 
 struct Sky {
@@ -51,8 +55,9 @@ struct PictureOptions {
     /// The request for depth's own file, or for the picture's.
     LayerRequest depth_request() const;
 
-    /// What goes before the scene's camera: --camera, then --vfov where that says nothing.
-    Camera camera_asked(const Imf::Header &header) const;
+    /// What goes before the scene's camera: --camera or --vfov, which keeps the scene's centre and aspect.
+    Camera camera_asked(const Imf::Header &picture, const CameraBlock &scene = {}, const std::string &view = "",
+                        int frame = 0) const;
 };
 
 }  // namespace brume::tool

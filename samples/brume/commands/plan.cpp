@@ -36,11 +36,12 @@ int plan(const PlanOptions &options)
     const OpenFrame open = open_frame(first, options.fog.picture, {});
     const ColorManager colors;
     Fogger fogger(options.fog);
-    fogger.learn_roles(open.file, open.color);
+    fogger.learn_roles(open.file, open.color, first.frame);
     const std::vector<OpenInput> inputs = fogger.open_inputs(open.file, open.color, first.frame, {});
-    fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs);
-    const brume_plan plan = fogger.plan_for(open.file, open.color,
-                                            colors.luminance_weights(open.file.header(open.color.part)), roles_of(inputs));
+    fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs, first.frame);
+    const brume_plan plan = fogger.plan_for(
+        open.file, open.color, colors.luminance_weights(open.file.header(open.color.part)), roles_of(inputs), first.frame);
+    const Shot shot = fogger.shot_of(open.file, open.color, first.frame);
 
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     check_request(fogger.context(), brume_plan_get_info(plan, &info), "plan");
@@ -75,6 +76,8 @@ int plan(const PlanOptions &options)
         {"does_nothing", info.does_nothing != 0},
         {"needs_of_camera", camera_needs(info.camera_needs)},
         {"camera_reason", info.camera_reason},
+        {"camera", shot.camera_source},
+        {"camera_notes", shot.camera_notes},
         {"image_bytes", info.image_bytes},
         {"quality", info.quality},
         {"predicted_ms", info.predicted_ms},
@@ -103,6 +106,9 @@ int plan(const PlanOptions &options)
         fmt::print("nothing to do: the picture is copied, bit for bit\n");
     fmt::print("camera: needs {}{}{}\n", camera_needs(info.camera_needs), info.camera_needs ? ": " : "",
                info.camera_needs ? info.camera_reason : "");
+    fmt::print("camera: {}\n", printable(shot.camera_source));
+    for (const std::string &note : shot.camera_notes)
+        fmt::print("camera: {}\n", printable(note));
     if (*info.quality)
         fmt::print("quality: {}\n", info.quality);
     fmt::print("predicted {:.3f} ms a frame; {:.1f} MiB of images; error against the references {}\n", info.predicted_ms,

@@ -42,7 +42,10 @@ void add_run(CLI::App &app, Action &chosen)
     command->add_flag("!--no-provenance", options->provenance,
                       "Leave out the attribute brume:provenance, which names version, backend and scene");
     command->add_flag("--quiet", options->quiet, "Say nothing but warnings and errors");
-    command->callback([&chosen, options] { chosen = [options] { return run_sequence(*options); }; });
+    command->callback([&chosen, options] {
+        options->spaces.display = !options->preview.empty();
+        chosen = [options] { return run_sequence(*options); };
+    });
 }
 
 }  // namespace brume::tool

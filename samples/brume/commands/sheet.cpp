@@ -80,7 +80,7 @@ int sheet(const SheetOptions &options)
     constexpr std::uint8_t kGround = 24;
     const auto all = list_frames(FilePattern(options.before), FilePattern(options.after), options.frames);
     const auto chosen = evenly(all, std::size_t(options.columns));
-    const ColorManager colors;
+    const ColorManager colors({"", "", true});
 
     std::vector<Thumbnail> cells;  // a column holds a frame: before above after
     for (const FrameFile &f : chosen) {

@@ -87,15 +87,18 @@ std::vector<float> place(const std::vector<float> &pixels, std::size_t channels,
 
 }  // namespace
 
-bool is_lossy_for(Imf::Compression compression, Imf::PixelType type)
+bool is_lossy_for(Imf::Compression compression, const ChannelInfo &channel)
 {
+    const Imf::PixelType type = channel.type;
+    const std::string &base = channel.base;
     switch (compression) {
     case Imf::B44_COMPRESSION:
     case Imf::B44A_COMPRESSION:
         return type == Imf::HALF;
     case Imf::DWAA_COMPRESSION:
     case Imf::DWAB_COMPRESSION:
-        return type != Imf::UINT;
+        return type != Imf::UINT &&
+               (base == "R" || base == "G" || base == "B" || base == "Y" || base == "RY" || base == "BY");
     case Imf::PXR24_COMPRESSION:
         return type == Imf::FLOAT;
     default:

@@ -47,8 +47,8 @@ struct DepthSource {
     DepthChoice choice;
 };
 
-/// Whether a channel of this type loses something when it is stored with this compression.
-bool is_lossy_for(Imf::Compression compression, Imf::PixelType type);
+/// Whether this channel loses something when it is stored with this compression. DWA goes by the channel's name.
+bool is_lossy_for(Imf::Compression compression, const ChannelInfo &channel);
 
 /// What read_frame will allocate, from the headers alone.
 std::uint64_t frame_bytes(const ExrFile &file, const ColorChoice &color);

@@ -27,7 +27,7 @@ struct Window {
 };
 
 struct PartHeader {
-    std::string type;
+    std::string name, type;
     std::optional<Window> data, display;
     std::optional<std::uint8_t> compression;
     std::optional<std::array<std::uint32_t, 2>> tile;
@@ -105,6 +105,8 @@ public:
             fail(fmt::format("claims {} chunks of pixels, but the file has only {} bytes", chunks, size_));
         for (part_ = 0; part_ < int(parts.size()); ++part_) {
             const PartHeader &part = parts[std::size_t(part_)];
+            if (multi_part)
+                check_written(table, part);
             if (is_deep(part))
                 check_deep_chunks(table, part, multi_part);
             else if (multi_part)
@@ -173,7 +175,7 @@ private:
     static bool interesting(const std::string &name)
     {
         return name == "dataWindow" || name == "displayWindow" || name == "channels" || name == "compression" ||
-               name == "tiles" || name == "type" || name == "chunkCount";
+               name == "tiles" || name == "name" || name == "type" || name == "chunkCount";
     }
 
     template <class T> T value_of(const std::string &name, std::span<const char> bytes) const
@@ -195,6 +197,8 @@ private:
             part.compression = value_of<std::uint8_t>(name, bytes);
         else if (name == "tiles")
             part.tile = value_of<std::array<std::uint32_t, 2>>(name, bytes);
+        else if (name == "name")
+            part.name.assign(bytes.begin(), bytes.end());
         else if (name == "type")
             part.type.assign(bytes.begin(), bytes.end());
         else if (name == "chunkCount")
@@ -233,6 +237,18 @@ private:
     bool is_tiled(const PartHeader &part) const
     {
         return part.type.empty() ? (flags_ & kTiledFlag) != 0 : part.type == "tiledimage" || part.type == "deeptile";
+    }
+
+    /// A renderer that was stopped leaves entries of 0 for what it has not written.
+    void check_written(std::uint64_t table, const PartHeader &part)
+    {
+        std::int32_t missing = 0;
+        for (std::int32_t i = 0; i < *part.chunk_count; ++i)
+            missing += read_at<std::uint64_t>(table + 8 * std::uint64_t(i)) == 0;
+        if (missing > 0)
+            fail(fmt::format("{}: {} of {} chunks of pixels were never written: the file is incomplete",
+                             part.name.empty() ? "part without a name" : "part '" + part.name + "'", missing,
+                             *part.chunk_count));
     }
 
     /// The library allocates a deep chunk by the size that it claims, even to copy it undecoded.
@@ -290,6 +306,11 @@ private:
                              part.data->height(), limits_.side));
         if (part.channels == 0)
             fail("no channels");
+        if (part.compression && (*part.compression == 10 || *part.compression == 11))
+            fail(fmt::format(
+                "compression {} is HTJ2K, which the OpenEXR library of this build does not read (expected one up "
+                "to DWAB, 9)",
+                int(*part.compression)));
         if (!part.compression || *part.compression > 9)
             fail(fmt::format("compression {} (expected 0 to 9)", part.compression ? int(*part.compression) : -1));
 

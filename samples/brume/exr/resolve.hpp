@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "exr/file.hpp"
 
@@ -32,6 +33,9 @@ struct DepthChoice {
 
 /// Layers are found by name, never by index. Throws RequestError that lists the candidates when none or several fit.
 ColorChoice resolve_color(const ExrFile &file, const LayerRequest &request);
+
+/// Other views that have the same layer.
+std::vector<std::string> other_views(const ExrFile &file, const ColorChoice &color);
 
 /// `color` is where depth must share the view; null when depth comes from a file of its own.
 DepthChoice resolve_depth(const ExrFile &file, const LayerRequest &request, const ColorChoice *color);

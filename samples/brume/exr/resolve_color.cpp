@@ -86,6 +86,25 @@ std::string list(const ExrFile &file, const std::vector<Candidate> &candidates)
     return text.empty() ? "none" : text;
 }
 
+/// What stands in the way of taking the picture for a colour, where its channels' names say that it is one.
+std::string why_none(const ExrFile &file)
+{
+    for (const PartInfo &part : file.parts())
+        for (const ChannelInfo &c : part.channels) {
+            if (c.base == "RY" || c.base == "BY")
+                return fmt::format("; luminance and chroma ({}) are not read: convert it to R, G, B", c.name);
+            const std::string base = lower(c.base);
+            if (base != "r" && base != "g" && base != "b" && base != "y" && base != "red" && base != "green" &&
+                base != "blue")
+                continue;
+            if (c.sampling != Imath::V2i(1, 1))
+                return fmt::format("; '{}' is subsampled {} x {}", c.name, c.sampling.x, c.sampling.y);
+            if (c.type == Imf::UINT)
+                return fmt::format("; '{}' is of type uint", c.name);
+        }
+    return "";
+}
+
 std::string all_channels(const ExrFile &file)
 {
     constexpr std::size_t kShown = 24;
@@ -108,6 +127,17 @@ std::string ColorChoice::label() const
     return fmt::format("{},{},{}{}{}", rgb[0], rgb[1], rgb[2], alpha.empty() ? "" : "," + alpha, in_view);
 }
 
+std::vector<std::string> other_views(const ExrFile &file, const ColorChoice &color)
+{
+    std::vector<std::string> views;
+    for (const PartInfo &part : file.parts())
+        for (const Candidate &c : candidates_in(part))
+            if (c.choice.layer == color.layer && !c.choice.view.empty() && !color.view.empty() &&
+                c.choice.view != color.view && std::find(views.begin(), views.end(), c.choice.view) == views.end())
+                views.push_back(c.choice.view);
+    return views;
+}
+
 ColorChoice resolve_color(const ExrFile &file, const LayerRequest &request)
 {
     std::vector<Candidate> candidates;
@@ -122,9 +152,9 @@ ColorChoice resolve_color(const ExrFile &file, const LayerRequest &request)
     const auto part_of = [&](const Candidate &c) -> const PartInfo & { return file.parts()[c.choice.part]; };
 
     if (candidates.empty())
-        throw RequestError(
-            fmt::format("{}: no colour: expected half or float channels R, G, B (or Y) at full resolution; the file has {}",
-                        file.path().string(), all_channels(file)));
+        throw RequestError(fmt::format(
+            "{}: no colour: expected half or float channels R, G, B (or Y) at full resolution; the file has {}{}",
+            file.path().string(), all_channels(file), why_none(file)));
     if (!request.part.empty() && !narrow(candidates, [&](const auto &c) { return part_is(part_of(c), request.part); }))
         fail(fmt::format("--part '{}' has no colour layer", request.part));
     if (!request.view.empty() && !narrow(candidates, [&](const auto &c) { return c.choice.view == request.view; }))

@@ -155,6 +155,12 @@ std::optional<DepthChoice> find_depth(const ExrFile &file, const LayerRequest &r
             }
         }
         if (found.empty())
+            for (const auto &[part, channel] : gather(file, [](const PartInfo &p, const ChannelInfo &c) {
+                     return !p.deep && c.sampling != Imath::V2i(1, 1) && (is_root_z(p, c) || has_known_name(p, c));
+                 }))
+                return refuse(fmt::format("depth '{}' is subsampled {} x {} (expected full resolution)", channel->name,
+                                          channel->sampling.x, channel->sampling.y));
+        if (found.empty())
             return refuse("no depth: expected Z, depth.Z or another known name (see docs/depth), or --depth NAME");
     }
     if (found.size() > 1 && color) {

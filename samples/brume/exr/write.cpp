@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <ImfChannelList.h>
@@ -10,10 +11,12 @@
 #include <ImfDeepScanLineOutputPart.h>
 #include <ImfDeepTiledInputPart.h>
 #include <ImfDeepTiledOutputPart.h>
+#include <ImfFloatAttribute.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTiledInputPart.h>
 #include <ImfTiledOutputPart.h>
@@ -33,37 +36,57 @@ namespace {
 std::string view_prefix(const Frame &frame)
 {
     return frame.color.view.empty() || frame.color.view == frame.file.default_view() || !frame.part().view.empty()
-            ? ""
-            : frame.color.view + ".";
+               ? ""
+               : frame.color.view + ".";
 }
 
 constexpr float kHalfMax = 65504.0f;
 
+/// Of a converted colour.
+constexpr const char *kSpaceAttributes[] = {"chromaticities", "acesImageContainerFlag", "adoptedNeutral", "colorInteropID",
+                                            "oiio:ColorSpace"};
+
+/// What the largest value may be so that it is finite when it is read again. DWA stores both types as halves, and an error
+/// of its quantisation, which grows with the level, must not carry them beyond.
+float largest_of(const Imf::Header &header, const ChannelInfo &channel)
+{
+    const bool dwa = header.compression() == Imf::DWAA_COMPRESSION || header.compression() == Imf::DWAB_COMPRESSION;
+    if (dwa && is_lossy_for(header.compression(), channel))
+        return kHalfMax * std::exp(-0.02f - 0.001f * header.dwaCompressionLevel());
+    return channel.type == Imf::HALF ? kHalfMax : std::numeric_limits<float>::max();
+}
+
+/// The library codes at its default unless it is told what it has read.
+void keep_dwa_level(Imf::Header &header)
+{
+    if (const auto *level = header.findTypedAttribute<Imf::FloatAttribute>("dwaCompressionLevel"))
+        header.dwaCompressionLevel() = level->value();
+}
+
 /// What describes the old pixels and would be false of the new ones.
 constexpr const char *kStaleAttributes[] = {"preview", "oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor",
-                                            "SHA-1",   "md5",        "checksum",          kProvenance};
+                                            "SHA-1",   "md5",        "checksum"};
 
-Plane from_floats(const ChannelInfo &channel, const float *in, std::size_t count, std::size_t stride,
+Plane from_floats(const ChannelInfo &channel, float largest, const float *in, std::size_t count, std::size_t stride,
                   std::atomic<std::uint64_t> &clamped)
 {
     Plane plane{channel, std::make_unique_for_overwrite<char[]>(count * pixel_bytes(channel.type)),
                 pixel_bytes(channel.type)};
     oneapi::tbb::parallel_for(std::size_t(0), (count + kGrain - 1) / kGrain, [&](std::size_t block) {
         const std::size_t from = block * kGrain, to = std::min(count, from + kGrain);
-        if (channel.type == Imf::FLOAT) {
-            auto *out = reinterpret_cast<float *>(plane.bytes.get());
-            for (std::size_t i = from; i < to; ++i)
-                out[i] = in[i * stride];
-            return;
-        }
-        auto *out = reinterpret_cast<half *>(plane.bytes.get());
         std::uint64_t over = 0;
-        for (std::size_t i = from; i < to; ++i) {
-            const float value = in[i * stride];
-            const bool too_large = std::isfinite(value) && std::abs(value) > kHalfMax;
-            over += too_large;
-            out[i] = half(too_large ? std::copysign(kHalfMax, value) : value);
-        }
+        const auto fill = [&](auto *out) {
+            for (std::size_t i = from; i < to; ++i) {
+                const float value = in[i * stride];
+                const bool too_large = std::isfinite(value) && std::abs(value) > largest;
+                over += too_large;
+                out[i] = too_large ? std::copysign(largest, value) : value;
+            }
+        };
+        if (channel.type == Imf::FLOAT)
+            fill(reinterpret_cast<float *>(plane.bytes.get()));
+        else
+            fill(reinterpret_cast<half *>(plane.bytes.get()));
         clamped += over;
     });
     return plane;
@@ -74,18 +97,23 @@ std::vector<Plane> outgoing_planes(const Frame &frame, const std::vector<AddedLa
 {
     std::atomic<std::uint64_t> clamped{0};
     const std::size_t count = std::size_t(frame.width) * std::size_t(frame.height);
+    Imf::Header header = frame.file.header(frame.color.part);
+    keep_dwa_level(header);
     const auto channel = [&](const std::string &name) { return *frame.part().find(name); };
     std::vector<Plane> planes;
-    for (std::size_t i = 0; i < (frame.color.luminance ? 1u : 3u); ++i)
-        planes.push_back(
-            from_floats(channel(frame.color.rgb[i]), frame.pixels.data() + i, count, std::size_t(frame.channels), clamped));
+    for (std::size_t i = 0; i < (frame.color.luminance ? 1u : 3u); ++i) {
+        const ChannelInfo info = channel(frame.color.rgb[i]);
+        planes.push_back(from_floats(info, largest_of(header, info), frame.pixels.data() + i, count,
+                                     std::size_t(frame.channels), clamped));
+    }
 
     const std::string view = view_prefix(frame);
     for (const AddedLayer &layer : layers)
         for (int c = 0; c < layer.channels; ++c) {
             const std::string base = layer.channels == 1 ? "Y" : std::string(1, "RGB"[c]);
             ChannelInfo info{fmt::format("brume.{}.{}{}", layer.name, view, base), "", "", base, layer.type, {1, 1}};
-            planes.push_back(from_floats(info, layer.pixels.data() + c, count, std::size_t(layer.channels), clamped));
+            planes.push_back(from_floats(info, largest_of(header, info), layer.pixels.data() + c, count,
+                                         std::size_t(layer.channels), clamped));
         }
     clamped_out = clamped;
     return planes;
@@ -116,13 +144,13 @@ Imf::Header header_of_rewritten(const Frame &frame, const std::vector<Plane> &ou
                                 std::vector<std::string> &warnings)
 {
     Imf::Header header = frame.file.header(frame.color.part);
+    keep_dwa_level(header);
     for (const char *name : kStaleAttributes)
         header.erase(name);
-    if (!options.provenance.empty())
-        header.insert(kProvenance, Imf::StringAttribute(options.provenance));
     header.channels() = without_own_layers(header.channels(), view_prefix(frame));
     if (options.primaries_changed)
-        header.erase("chromaticities");
+        for (const char *name : kSpaceAttributes)
+            header.erase(name);
     for (const Plane &plane : outgoing)
         if (!header.channels().findChannel(plane.channel.name) || plane.channel.name.starts_with("brume."))
             header.channels().insert(plane.channel.name, Imf::Channel(plane.channel.type));
@@ -131,7 +159,7 @@ Imf::Header header_of_rewritten(const Frame &frame, const std::vector<Plane> &ou
         warnings.push_back("mipmap levels are not kept: they would show the picture without fog");
     }
     for (const Plane &plane : frame.planes)
-        if (!find_plane(outgoing, plane.channel.name) && is_lossy_for(header.compression(), plane.channel.type)) {
+        if (!find_plane(outgoing, plane.channel.name) && is_lossy_for(header.compression(), plane.channel)) {
             warnings.push_back(
                 fmt::format("channels beside the colour, {} among them, are stored with a lossy compression and lose "
                             "one more generation",
@@ -187,18 +215,35 @@ WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layer
                         const WriteOptions &options)
 {
     WriteReport report;
-    const std::vector<Plane> outgoing = outgoing_planes(frame, layers, report.clamped);
+    const Imf::Header &old = frame.file.header(frame.color.part);
+    const bool copied = options.untouched && without_own_layers(old.channels(), view_prefix(frame)) == old.channels();
+    std::vector<Plane> outgoing;
+    if (!copied)
+        outgoing = outgoing_planes(frame, layers, report.clamped);
     if (report.clamped > 0)
-        report.warnings.push_back(fmt::format("{} values beyond 65504 clamped to fit half", report.clamped));
+        report.warnings.push_back(
+            fmt::format("{} values clamped to what stays finite in half, as it is stored (at most 65504)", report.clamped));
 
+    // Shared attributes must agree in all parts, so they can only be said of the new colour where it is the only one.
+    const bool alone = std::none_of(frame.file.parts().begin(), frame.file.parts().end(), [&](const PartInfo &part) {
+        return part.index != frame.color.part &&
+               std::any_of(part.channels.begin(), part.channels.end(), [](const ChannelInfo &c) { return c.base == "G"; });
+    });
     std::vector<Imf::Header> headers;
     for (const PartInfo &part : frame.file.parts()) {
-        const bool rewritten = part.index == frame.color.part;
+        const bool rewritten = part.index == frame.color.part && !copied;
         headers.push_back(rewritten ? header_of_rewritten(frame, outgoing, options, report.warnings)
                                     : frame.file.header(part.index));
-        // Shared attributes must agree in all parts.
+        keep_dwa_level(headers.back());
+        if (part.index == frame.color.part) {
+            headers.back().erase(kProvenance);
+            if (!options.provenance.empty())
+                headers.back().insert(kProvenance, Imf::StringAttribute(options.provenance));
+        }
         if (options.primaries_changed)
             headers.back().erase("chromaticities");
+        if (options.primaries_changed && options.chromaticities && alone)
+            Imf::addChromaticities(headers.back(), *options.chromaticities);
     }
 
     PendingFile pending(output);
@@ -206,7 +251,7 @@ WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layer
     try {
         Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()));
         for (const PartInfo &part : frame.file.parts())
-            if (part.index == frame.color.part)
+            if (part.index == frame.color.part && !copied)
                 write_pixels(file, frame, outgoing);
             else
                 copy_undecoded(frame.file, file, part);

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <ImfChromaticitiesAttribute.h>
 
 #include "exr/frame.hpp"
 
@@ -21,8 +24,10 @@ struct AddedLayer {
 constexpr const char *kProvenance = "brume:provenance";
 
 struct WriteOptions {
-    bool primaries_changed = false;  ///< the colour has been converted: `chromaticities` would be false
-    std::string provenance = {};     ///< empty: not written
+    bool primaries_changed = false;  ///< the colour has been converted: what the header says of its space would be false
+    std::optional<Imf::Chromaticities> chromaticities = {};  ///< of the new space, where they are known
+    bool untouched = false;       ///< the pixels are those that were read: they are copied as they are coded
+    std::string provenance = {};  ///< empty: not written
 };
 
 struct WriteReport {

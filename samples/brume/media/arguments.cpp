@@ -94,15 +94,18 @@ ViewOptions::Loaded ViewOptions::load() const
     const DepthChoice depth = with_depth_ && file ? resolve_depth(*file, picture_.depth_request(), nullptr) : DepthChoice{};
     const Imf::Header header = file ? file->header(depth.part) : header_of_size(size_);
     Camera camera = picture_.camera_asked(header);
-    camera.fill_from(camera_from_metadata(header));
+    camera.fill_from(file ? camera_from_metadata(*file, depth.part) : camera_from_metadata(header));
     if (!camera.projection || !camera.pose)
-        throw RequestError(fmt::format("no {} in --camera, --vfov or the metadata of --frame",
-                                       camera.projection ? "camera pose" : "field of view"));
+        throw RequestError(fmt::format("no {} in --camera, --vfov or the metadata of --frame{}{}",
+                                       camera.projection ? "camera pose" : "field of view", camera.notes.empty() ? "" : ": ",
+                                       camera.notes_text()));
     loaded.camera_ = camera_of(camera, header.displayWindow());
     loaded.format_ = format_of(file ? file->parts()[std::size_t(depth.part)].data_window : header.dataWindow(),
                                header.displayWindow(), picture_);
-    if (!depth.channel.empty())
+    if (!depth.channel.empty()) {
         loaded.depth_ = read_channel(*file, depth.part, depth.channel);
+        picture_.depth_kind().convert(loaded.depth_);
+    }
     return loaded;
 }
 

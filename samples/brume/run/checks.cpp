@@ -1,14 +1,20 @@
 #include "run/checks.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "exr/narrow.hpp"
+#include "run/inputs.hpp"
+#include "run/scene.hpp"
 #include "support/error.hpp"
+#include "support/pending_file.hpp"
 
 namespace brume::tool {
 namespace {
@@ -25,6 +31,23 @@ std::optional<FileId> id_of(const std::filesystem::path &file)
     return FileId{status.st_dev, status.st_ino};
 }
 
+/// Every file that a scene names, of whatever kind.
+void collect_files(const nlohmann::json &node, const std::filesystem::path &folder, std::vector<FilePattern> &files)
+{
+    for (const auto &[key, value] : node.items())
+        if (key == "file" && value.is_string())
+            files.emplace_back((folder / value.get<std::string>()).string());
+        else if (value.is_structured())
+            collect_files(value, folder, files);
+}
+
+void check_ending(const char *option, const std::string &file, const std::string &ending)
+{
+    const std::string name = lower(std::filesystem::path(file).filename().string());
+    if (!name.ends_with(ending) || name == ending)
+        throw RequestError(fmt::format("{} {}: expected a name that ends in {}", option, file, ending));
+}
+
 }  // namespace
 
 void check_outputs(const SequenceOptions &options, const std::vector<FrameFile> &files)
@@ -32,7 +55,7 @@ void check_outputs(const SequenceOptions &options, const std::vector<FrameFile> 
     std::vector<std::filesystem::path> outputs;
     for (const FrameFile &f : files)
         outputs.push_back(f.output);
-    if (!options.stats.empty())
+    if (!options.stats.empty() && !is_stream(options.stats))
         outputs.push_back(options.stats);
     if (!options.preview.empty()) {
         const FilePattern preview(options.preview);
@@ -44,19 +67,37 @@ void check_outputs(const SequenceOptions &options, const std::vector<FrameFile> 
     }
     std::set<std::filesystem::path> seen;
     for (const auto &output : outputs) {
-        if (!seen.insert(std::filesystem::absolute(output).lexically_normal()).second)
+        std::string why_not;
+        const std::filesystem::path place = place_of(output, why_not);
+        if (!why_not.empty())
+            throw RequestError(fmt::format("{}: {} (expected a file's name)", output.string(), why_not));
+        std::error_code error;
+        const std::filesystem::path real = std::filesystem::weakly_canonical(place, error);
+        if (!seen.insert(error ? std::filesystem::absolute(place).lexically_normal() : real).second)
             throw RequestError(fmt::format("{}: two outputs would be written there", output.string()));
-        if (std::filesystem::is_directory(output))
-            throw RequestError(fmt::format("{}: is a folder (expected a file's name)", output.string()));
     }
+    check_ending("-o", options.output, ".exr");
+    if (!options.preview.empty())
+        check_ending("--preview", options.preview, ".png");
 
     std::vector<std::filesystem::path> read{options.fog.scene};
-    if (!options.fog.picture.camera_file.empty())
-        read.push_back(options.fog.picture.camera_file);
+    const nlohmann::json scene = nlohmann::json::parse(read_scene(options.fog.scene, {}).text, nullptr, false);
+    std::vector<FilePattern> patterns;
+    if (scene.is_structured())
+        collect_files(scene, std::filesystem::path(options.fog.scene).parent_path(), patterns);
+    if (const std::string &camera = options.fog.picture.camera_file; !camera.empty())
+        patterns.emplace_back(camera);
+    if (const std::string depth = options.fog.picture.depth_file(); !depth.empty())
+        patterns.emplace_back(depth);
+    for (const std::string &input : options.fog.inputs)
+        if (const std::string file = parse_input(input).file; !file.empty())
+            patterns.emplace_back(file);
+    if (const char *config = std::getenv("OCIO"); config && *config)
+        read.push_back(config);
     for (const FrameFile &f : files) {
         read.push_back(f.input);
-        if (const std::string depth = options.fog.picture.depth_file(); !depth.empty())
-            read.push_back(FilePattern(depth).at(f.frame));
+        for (const FilePattern &pattern : patterns)
+            read.push_back(pattern.existing_at(f.frame));
     }
     // By identity, so that links of either kind are seen for what they are.
     std::map<FileId, std::filesystem::path> inputs;

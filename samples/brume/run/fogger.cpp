@@ -70,12 +70,13 @@ bool reads_layer(brume_context context, const char *effect, const std::string &r
     return false;
 }
 
-std::string missing_camera(std::uint32_t missing, const char *reason)
+std::string missing_camera(std::uint32_t missing, const char *reason, const std::vector<std::string> &notes)
 {
     const char *what = missing == BRUME_CAMERA_POSE            ? "camera pose"
                        : missing == BRUME_CAMERA_FIELD_OF_VIEW ? "field of view"
                                                                : "camera";
-    return fmt::format("no {} in options, scene file or metadata, and it matters: {}", what, reason);
+    return fmt::format("no {} in options, scene file or metadata, and it matters: {}{}{}", what, reason,
+                       notes.empty() ? "" : "; ", fmt::join(notes, "; "));
 }
 
 }  // namespace
@@ -110,6 +111,8 @@ void FogOptions::add_to(CLI::App &command)
         ->type_name("NAME,...")
         ->allow_extra_args(false);
     add_input_option(command, inputs);
+    command.add_flag("--element", element,
+                     "The picture goes over a plate in the same fog: the medium's own light counts as far as alpha covers");
 }
 
 Fogger::Fogger(const FogOptions &options) : options_(options)
@@ -128,7 +131,7 @@ Fogger::Fogger(const FogOptions &options) : options_(options)
     check_request(context_.get(), brume_context_get_info(context_.get(), &context_info), "");
     provenance_ = provenance_of(text, options, context_info.backend);
     ask_for_quality();
-    check_request(context_.get(), brume_scene_get_camera_given(scene, &scene_camera_), options.scene);
+    scene_camera_ = CameraBlock::of_scene(text.text, options.scene);
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
     for (const LayerOutput &output : outputs_)
         if (output.of_light && output.light >= scene_info_.light_count)
@@ -153,7 +156,7 @@ void Fogger::ask_for_quality()
 }
 
 void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
-                    const std::vector<OpenInput> &inputs)
+                    const std::vector<OpenInput> &inputs, int number)
 {
     brume_quality quality = BRUME_QUALITY_INIT;
     check_request(context_.get(), brume_scene_get_quality(scene_.get(), &quality), "quality");
@@ -161,7 +164,7 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
         (quality.transmittance > 0 && quality.detail > 0))
         return;
     const PartInfo &part = depth_file.parts()[depth.part];
-    Shot shot = shot_of(file, color);
+    Shot shot = shot_of(file, color, number);
     shot.format = format_of(part.data_window, depth_file.header(depth.part).displayWindow(), options_.picture);
     brume_layer wanted = layer_named("transmittance", nullptr);
     shot.format.outputs = &wanted;
@@ -180,9 +183,10 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     // What does not work here fails where the scene is planned as it is, with the reason.
     if (planned != BRUME_OK || brume_plan_get_info(made, &info) != BRUME_OK || info.does_nothing ||
-        (info.camera_needs & ~(shot.camera.given | scene_camera_)))
+        (info.camera_needs & ~shot.camera.given))
         return;
     std::vector<float> distances = read_channel(depth_file, depth.part, depth.channel);
+    options_.picture.depth_kind().convert(distances);
     std::vector<float> color_rgb(distances.size() * 3), transmittance(distances.size() * 3);
     const int width = part.width(), height = part.height();
     const brume_image c = host_image(color_rgb.data(), width, height, 3), d = host_image(distances.data(), width, height, 1),
@@ -211,22 +215,21 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color) const
+Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color, int number) const
 {
-    Shot shot =
-        tool::shot_of(file.header(color.part), file.parts()[color.part].data_window, options_.picture, scene_camera_);
+    Shot shot = tool::shot_of(file, color, options_.picture, scene_camera_, number);
     shot.format.outputs = output_layers_.data();
     shot.format.output_count = std::uint32_t(output_layers_.size());
     return shot;
 }
 
-void Fogger::learn_roles(const ExrFile &file, const ColorChoice &color)
+void Fogger::learn_roles(const ExrFile &file, const ColorChoice &color, int number)
 {
     const std::vector<std::string> roles = tool::known_roles(context_.get());
     if (roles.empty())
         return;
     // Which effects run is the library's to say, so it is asked with all of the roles.
-    Shot shot = shot_of(file, color);
+    Shot shot = shot_of(file, color, number);
     const std::vector<brume_layer> given = input_layers(roles);
     shot.format.inputs = given.data();
     shot.format.input_count = std::uint32_t(given.size());
@@ -256,9 +259,11 @@ std::vector<OpenInput> Fogger::open_inputs(const ExrFile &file, const ColorChoic
 }
 
 brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
-                            const std::vector<std::string> &roles)
+                            const std::vector<std::string> &roles, int number)
 {
-    Shot shot = shot_of(file, color);
+    Shot shot = shot_of(file, color, number);
+    if (options_.element && color.alpha.empty())
+        throw RequestError(fmt::format("{}: --element: colour '{}' has no alpha", file.path().string(), color.label()));
     const std::vector<brume_layer> given = input_layers(roles);
     shot.format.inputs = given.data();
     shot.format.input_count = std::uint32_t(given.size());
@@ -283,9 +288,28 @@ brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const
     }
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     check_request(context_.get(), brume_plan_get_info(at->second.get(), &info), file.path().string());
-    if (const std::uint32_t missing = info.camera_needs & ~(shot.camera.given | scene_camera_))
-        throw RequestError(fmt::format("{}: {}", file.path().string(), missing_camera(missing, info.camera_reason)));
+    if (const std::uint32_t missing = info.camera_needs & ~shot.camera.given)
+        throw RequestError(
+            fmt::format("{}: {}", file.path().string(), missing_camera(missing, info.camera_reason, shot.camera_notes)));
     return at->second.get();
+}
+
+/// The fog is linear in the picture, so what it makes of a black one is the medium's own light. Where the picture covers
+/// nothing the plate has that light already.
+void Fogger::take_uncovered_light(brume_plan plan, brume_frame call, Frame &frame) const
+{
+    std::vector<float> black(frame.pixels.size());
+    for (std::size_t i = 3; i < black.size(); i += 4)
+        black[i] = frame.pixels[i];
+    const brume_image image = host_image(black.data(), frame.width, frame.height, frame.channels);
+    call.color = call.output = &image;
+    call.outputs = nullptr;
+    call.output_count = 0;
+    check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());
+    for (std::size_t i = 0; i + 3 < black.size(); i += 4)
+        if (const float uncovered = 1 - std::clamp(frame.pixels[i + 3], 0.0f, 1.0f); uncovered > 0)
+            for (std::size_t c = 0; c < 3; ++c)
+                frame.pixels[i + c] -= uncovered * black[i + c];
 }
 
 FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers)
@@ -293,8 +317,8 @@ try {
     std::vector<std::string> roles;
     for (const InputLayer &input : frame.inputs)
         roles.push_back(input.role);
-    const brume_plan plan = plan_for(frame.file, frame.color, weights, roles);
-    const Shot shot = shot_of(frame.file, frame.color);
+    const brume_plan plan = plan_for(frame.file, frame.color, weights, roles, number);
+    const Shot shot = shot_of(frame.file, frame.color, number);
     const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);
     const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
 
@@ -322,12 +346,16 @@ try {
     call.camera = &shot.camera;
     call.frame = number;
     check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());
+    if (options_.element)
+        take_uncovered_light(plan, call, frame);
 
     FogReport report;
     report.camera = shot.camera_source;
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     check_request(context_.get(), brume_plan_get_info(plan, &info), "plan");
     report.nothing_to_do = info.does_nothing != 0;
+    if (info.camera_needs)
+        report.warnings = shot.camera_notes;
     for (std::uint32_t i = 0; i < info.entry_count; ++i) {
         brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
         check_request(context_.get(), brume_plan_get_entry(plan, i, &entry), "plan");

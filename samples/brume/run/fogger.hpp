@@ -18,11 +18,12 @@ namespace brume::tool {
 
 struct FogOptions {
     std::string scene, backend = "auto";
-    std::string preset;               ///< quality; empty: the scene's
+    std::string preset;  ///< quality; empty: the scene's
     double max_error = 0, budget_ms = 0;
     std::vector<std::string> set;     ///< effect.param=value
     std::vector<std::string> layers;  ///< extra outputs by name
     std::vector<std::string> inputs;  ///< role=layer
+    bool element = false;             ///< to go over a plate in the same fog
     PictureOptions picture;
 
     void add_to(CLI::App &command);
@@ -37,6 +38,7 @@ struct PassTime {
 struct FogReport {
     std::vector<PassTime> passes;
     std::string camera;  ///< where field of view and pose came from
+    std::vector<std::string> warnings;
     bool nothing_to_do = false;
 };
 
@@ -47,10 +49,10 @@ public:
 
     /// Learns from a frame what predictions of quality depend on, where quality is asked for and the scene does not say.
     void expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
-                const std::vector<OpenInput> &inputs);
+                const std::vector<OpenInput> &inputs, int number);
 
     /// Finds the roles that effects of the scene read and that layers of known names are taken for.
-    void learn_roles(const ExrFile &file, const ColorChoice &color);
+    void learn_roles(const ExrFile &file, const ColorChoice &color, int number);
 
     /// The layers that the library is to be given with such a picture. May be called from any thread.
     std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int number,
@@ -59,7 +61,7 @@ public:
     /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
     /// that nobody gave.
     brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
-                        const std::vector<std::string> &roles);
+                        const std::vector<std::string> &roles, int number);
 
     /// In place. Throws FrameError.
     FogReport fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers);
@@ -68,16 +70,17 @@ public:
     /// What the frames' attribute says of it.
     const std::string &provenance() const { return provenance_; }
     const brume_scene_info &scene_info() const { return scene_info_; }
+    Shot shot_of(const ExrFile &file, const ColorChoice &color, int number) const;
 
 private:
     void ask_for_quality();
-    Shot shot_of(const ExrFile &file, const ColorChoice &color) const;
+    void take_uncovered_light(brume_plan plan, brume_frame call, Frame &frame) const;
 
     FogOptions options_;
     ContextHandle context_;
     SceneHandle scene_;
     std::string provenance_;
-    std::uint32_t scene_camera_ = 0;
+    CameraBlock scene_camera_;
     brume_scene_info scene_info_ = BRUME_SCENE_INFO_INIT;
     std::vector<LayerOutput> outputs_;
     std::vector<brume_layer> output_layers_;  ///< of `outputs_`, as formats have them

@@ -34,6 +34,19 @@ void check_display(const ExrFile &file, const ColorChoice &color, const OpenInpu
 
 }  // namespace
 
+InputRequest parse_input(const std::string &text)
+{
+    const auto equals = text.find('=');
+    InputRequest request{text.substr(0, equals), "", equals == std::string::npos ? "" : text.substr(equals + 1)};
+    if (const auto colon = lower(request.layer).find(kExrThenLayer); colon != std::string::npos) {
+        request.file = request.layer.substr(0, colon + kExrThenLayer.size() - 1);
+        request.layer = request.layer.substr(colon + kExrThenLayer.size());
+    }
+    if (request.role.empty() || request.layer.empty())
+        throw RequestError(fmt::format("--input '{}': expected ROLE=LAYER or ROLE=FILE.exr:LAYER", text));
+    return request;
+}
+
 void add_input_option(CLI::App &command, std::vector<std::string> &inputs)
 {
     command
@@ -53,14 +66,7 @@ std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<
             roles.push_back(layer.name);
     std::vector<InputRequest> requests;
     for (const std::string &text : texts) {
-        const auto equals = text.find('=');
-        InputRequest request{text.substr(0, equals), "", equals == std::string::npos ? "" : text.substr(equals + 1)};
-        if (const auto colon = lower(request.layer).find(kExrThenLayer); colon != std::string::npos) {
-            request.file = request.layer.substr(0, colon + kExrThenLayer.size() - 1);
-            request.layer = request.layer.substr(colon + kExrThenLayer.size());
-        }
-        if (request.role.empty() || request.layer.empty())
-            throw RequestError(fmt::format("--input '{}': expected ROLE=LAYER or ROLE=FILE.exr:LAYER", text));
+        InputRequest request = parse_input(text);
         if (std::find(roles.begin(), roles.end(), request.role) == roles.end())
             throw RequestError(fmt::format("--input '{}': nothing reads a layer '{}'; nearest is '{}'; expected some of {}",
                                            text, request.role, nearest(request.role, roles), fmt::join(roles, ", ")));
@@ -94,7 +100,7 @@ std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color
         if (std::error_code error; !pattern.is_sequence() && !std::filesystem::exists(request.file, error))
             throw RequestError(
                 fmt::format("--input {}={}: {}", request.role, request.file, error ? error.message() : "no such file"));
-        ExrFile own(pattern.at(frame), limits);
+        ExrFile own(pattern.existing_at(frame), limits);
         InputChoice choice = resolve_input(own, request.role, request.layer, nullptr);
         inputs.push_back({std::move(choice), std::move(own)});
         check_display(file, color, inputs.back());

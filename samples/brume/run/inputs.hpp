@@ -19,6 +19,9 @@ struct InputRequest {
     std::string role, file, layer;
 };
 
+/// Throws RequestError.
+InputRequest parse_input(const std::string &text);
+
 void add_input_option(CLI::App &command, std::vector<std::string> &inputs);
 
 /// A role is an input layer that some effect or the library reads. Throws RequestError.

@@ -1,4 +1,8 @@
+#include <fmt/format.h>
+
+#include "exr/depth_window.hpp"
 #include "run/sequence.hpp"
+#include "support/error.hpp"
 
 namespace brume::tool {
 
@@ -9,10 +13,15 @@ OpenFrame open_frame(const FrameFile &files, const PictureOptions &picture, cons
     const std::string own_file = picture.depth_file();
     if (own_file.empty()) {
         DepthChoice depth = resolve_depth(file, picture.layers, &color);
+        check_depth_window(file, color, file, depth);
         return {std::move(file), std::move(color), std::nullopt, std::move(depth)};
     }
-    ExrFile depth_file(FilePattern(own_file).at(files.frame), limits);
+    const FilePattern depth_pattern(own_file);
+    if (std::error_code error; !depth_pattern.is_sequence() && !std::filesystem::exists(own_file, error))
+        throw RequestError(fmt::format("--depth {}: {}", own_file, error ? error.message() : "no such file"));
+    ExrFile depth_file(depth_pattern.existing_at(files.frame), limits);
     DepthChoice depth = resolve_depth(depth_file, picture.depth_request(), nullptr);
+    check_depth_window(file, color, depth_file, depth);
     return {std::move(file), std::move(color), std::move(depth_file), std::move(depth)};
 }
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <set>
 #include <thread>
@@ -12,6 +15,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
+#include <unistd.h>
 
 #include "colour/png.hpp"
 #include "run/checks.hpp"
@@ -67,7 +71,8 @@ public:
             limits_.part_bytes = options.memory << 20;
         for (FrameFile &f : files) {
             FrameStats stats;
-            if (options.skip_existing && std::filesystem::exists(f.output))
+            std::error_code error;
+            if (options.skip_existing && std::filesystem::exists(f.output, error))
                 stats.outcome = Outcome::kSkipped;
             else
                 to_do_.push_back(run_.frames.size());
@@ -79,6 +84,11 @@ public:
     int run()
     {
         preflight();
+        if (!colors_.warning().empty())
+            progress_.note("warning: " + colors_.warning());
+        if (options_.frames.empty())
+            for (const std::string &note : sequence_notes(FilePattern(options_.input)))
+                progress_.note(note);
         make_folders();
         catch_interrupts();
         progress_ = Progress(to_do_.size(), options_.quiet);
@@ -98,13 +108,14 @@ private:
         for (const std::size_t i : to_do_) {
             try {
                 const OpenFrame open = open_frame(run_.frames[i].files, options_.fog.picture, limits_);
-                fogger_.learn_roles(open.file, open.color);
-                const std::vector<OpenInput> inputs =
-                    fogger_.open_inputs(open.file, open.color, run_.frames[i].files.frame, limits_);
-                fogger_.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs);
+                const int number = run_.frames[i].files.frame;
+                fogger_.learn_roles(open.file, open.color, number);
+                const std::vector<OpenInput> inputs = fogger_.open_inputs(open.file, open.color, number, limits_);
+                fogger_.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs,
+                               number);
                 const brume_plan plan =
                     fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)),
-                                     roles_of(inputs));
+                                     roles_of(inputs), number);
                 // Once as read, once more as it is written, and the added layers as floats.
                 bytes = 2 * frame_bytes(open.file, open.color);
                 const PartInfo &part = open.file.parts()[open.color.part];
@@ -123,8 +134,9 @@ private:
         const std::uint64_t left = limits_.part_bytes - std::min(limits_.part_bytes, fogging);
         run_.frames_in_flight = std::clamp<std::size_t>(bytes ? std::size_t(left / bytes) : jobs, 1, jobs);
         if (bytes > left)
-            progress_.note(fmt::format("warning: one frame takes about {} MiB, more than the {} MiB of --mem; going on one at a time",
-                                       (bytes + fogging) >> 20, limits_.part_bytes >> 20));
+            progress_.note(
+                fmt::format("warning: one frame takes about {} MiB, more than the {} MiB of --mem; going on one at a time",
+                            (bytes + fogging) >> 20, limits_.part_bytes >> 20));
         Imf::setGlobalThreadCount(int(threads));
     }
 
@@ -136,6 +148,9 @@ private:
             if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error)
                 throw RequestError(
                     fmt::format("{}: the output's folder cannot be made: {}", folder.string(), error.message()));
+            if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+                throw RequestError(
+                    fmt::format("{}: the output's folder cannot be written to: {}", folder.string(), std::strerror(errno)));
         }
     }
 
@@ -201,10 +216,15 @@ private:
         job.stats.depth = fmt::format("{}{}: {}", depth_file ? depth_file->path().string() + ":" : "", open.depth.channel,
                                       open.depth.reason);
         const PartInfo &depth_part = (depth_file ? *depth_file : open.file).parts()[open.depth.part];
-        if (is_lossy_for(depth_part.compression, depth_part.find(open.depth.channel)->type))
+        if (is_lossy_for(depth_part.compression, *depth_part.find(open.depth.channel)))
             job.stats.warnings.push_back(
                 fmt::format("depth '{}' is stored with a lossy compression: edges may show it", open.depth.channel));
-        job.weights = colors_.luminance_weights(open.file.header(open.color.part));
+        const DepthKind kind = options_.fog.picture.depth_kind();
+        const Imf::PixelType depth_type = depth_part.find(open.depth.channel)->type;
+        for (const std::string &view : other_views(open.file, open.color))
+            job.stats.warnings.push_back(
+                fmt::format("the picture's view '{}' stays without fog (--view {} fogs that one)", view, view));
+        job.weights = colors_.luminance_weights(open.file.header(open.color.part), &job.stats.warnings);
         const std::vector<OpenInput> inputs = fogger_.open_inputs(open.file, open.color, job.stats.files.frame, limits_);
         job.frame.emplace(read_frame(std::move(open.file), open.color, &depth));
         Frame &frame = *job.frame;
@@ -214,17 +234,23 @@ private:
                                               with_color ? &frame.planes : nullptr));
             job.stats.inputs.emplace_back(input.choice.role, description(input));
             if (frame.inputs.back().outside > 0)
-                job.stats.warnings.push_back(fmt::format("{} pixels are outside the data window of the input {} and count as {}",
-                                                         frame.inputs.back().outside, input.choice.role,
-                                                         input.choice.role == "transmittance" ? 1 : 0));
+                job.stats.warnings.push_back(fmt::format(
+                    "{} pixels are outside the data window of the input {} and count as {}", frame.inputs.back().outside,
+                    input.choice.role, input.choice.role == "transmittance" ? 1 : 0));
         }
         job.stats.pixels = std::uint64_t(frame.width) * std::uint64_t(frame.height);
         job.stats.not_finite_pixels = count_not_finite(frame);
         job.stats.outside_depth_window = frame.outside_depth_window;
-        job.stats.depth_count = count_depth(frame.depth, options_.fog.picture.depth_kind(), options_.fog.picture.far);
-        if (job.stats.depth_count.nan > 0)
+        job.stats.depth_count = count_depth(frame.depth, kind, options_.fog.picture.far);
+        kind.convert(frame.depth);
+        for (std::string &warning : depth_warnings(job.stats.depth_count, kind, options_.fog.picture.far, depth_type))
+            job.stats.warnings.push_back(std::move(warning));
+        if (frame.outside_depth_window > 0)
             job.stats.warnings.push_back(
-                fmt::format("{} pixels have NaN depth and count as far", job.stats.depth_count.nan));
+                fmt::format("{} pixels lie outside the depth's data window and count as far", frame.outside_depth_window));
+        if (job.stats.not_finite_pixels > 0)
+            job.stats.warnings.push_back(
+                fmt::format("{} pixels have a colour that is not finite (NaN or infinite)", job.stats.not_finite_pixels));
         colors_.to_working(frame.pixels.data(), job.stats.pixels, frame.channels);
         job.stats.read_ms = ms_since(start);
     }
@@ -240,6 +266,8 @@ private:
         // Without isolation this thread could pick up another frame's reading while it waits for the library.
         oneapi::tbb::this_task_arena::isolate(
             [&] { job.stats.fog = fogger_.fog(*job.frame, job.stats.files.frame, job.weights, job.layers); });
+        for (const std::string &warning : job.stats.fog.warnings)
+            job.stats.warnings.push_back(warning);
         job.stats.fog_ms = ms_since(start);
     }
 
@@ -254,7 +282,13 @@ private:
         if (frame.color.luminance)
             merge_luminance(frame, job.weights);
         colors_.from_working(frame.pixels.data(), job.stats.pixels, frame.channels);
-        const WriteReport report = write_frame(frame, job.layers, job.stats.files.output, {colors_.changes_space(), options_.provenance ? fogger_.provenance() : ""});
+        WriteOptions how;
+        how.primaries_changed = colors_.changes_space();
+        how.chromaticities = colors_.new_chromaticities();
+        how.untouched = job.stats.fog.nothing_to_do && job.layers.empty() && !colors_.converts();
+        if (options_.provenance)
+            how.provenance = fogger_.provenance();
+        const WriteReport report = write_frame(frame, job.layers, job.stats.files.output, how);
         if (previewed)
             write_png(preview_.at(job.stats.files.frame), frame.width, frame.height, preview);
         job.stats.clamped_values = report.clamped;
@@ -276,7 +310,8 @@ private:
         }
         for (const std::string &warning : stats.warnings) {
             // Counts differ from frame to frame; one line for each kind is enough, --stats has them all.
-            const std::string kind = warning.substr(warning.find_first_not_of("0123456789"));
+            std::string kind = warning;
+            std::erase_if(kind, [](unsigned char c) { return std::isdigit(c); });
             if (warned_.insert(kind).second)
                 progress_.note(fmt::format("warning: {}: {}", stats.files.input.string(), warning));
         }

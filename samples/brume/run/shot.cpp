@@ -17,7 +17,8 @@ brume_format format_of(const Imath::Box2i &data, const Imath::Box2i &display, co
     format.display_width = display.max.x - display.min.x + 1;
     format.display_height = display.max.y - display.min.y + 1;
     const DepthKind kind = options.depth_kind();
-    constexpr std::uint32_t kinds[] = {BRUME_DEPTH_PLANAR, BRUME_DEPTH_RAY, BRUME_DEPTH_INVERSE, BRUME_DEPTH_NORMALIZED};
+    constexpr std::uint32_t kinds[] = {BRUME_DEPTH_PLANAR, BRUME_DEPTH_RAY, BRUME_DEPTH_INVERSE, BRUME_DEPTH_NORMALIZED,
+                                       BRUME_DEPTH_PLANAR};
     format.depth_kind = kinds[kind.type];
     format.depth_range[0] = kind.near;
     format.depth_range[1] = kind.far;
@@ -47,25 +48,27 @@ brume_camera camera_of(const Camera &camera, const Imath::Box2i &display)
     return result;
 }
 
-Shot shot_of(const Imf::Header &header, const Imath::Box2i &data, const PictureOptions &options, std::uint32_t scene_camera)
+Camera camera_of_picture(const ExrFile &file, const ColorChoice &color, const PictureOptions &options,
+                         const CameraBlock &scene, int frame)
+{
+    const Imf::Header &picture = file.header(color.part);
+    Camera camera = options.camera_asked(picture, scene, color.view, frame);
+    camera.fill_from(scene.at(frame, picture, "scene file"));
+    if (!camera.projection || !camera.pose)
+        camera.fill_from(camera_from_metadata(file, color.part));
+    return camera;
+}
+
+Shot shot_of(const ExrFile &file, const ColorChoice &color, const PictureOptions &options, const CameraBlock &scene,
+             int frame)
 {
     Shot shot;
-    const Imath::Box2i &display = header.displayWindow();
-    shot.format = format_of(data, display, options);
-    Camera camera = options.camera_asked(header);
-    Camera metadata = camera_from_metadata(header);
-    if (scene_camera & BRUME_CAMERA_FIELD_OF_VIEW)
-        metadata.projection.reset();
-    if (scene_camera & BRUME_CAMERA_POSE)
-        metadata.pose.reset();
-    camera.fill_from(metadata);
-    const auto source = [&](std::uint32_t flag, const std::string &name, bool given) {
-        return given ? name : scene_camera & flag ? "scene file" : "none";
-    };
-    shot.camera_source =
-        fmt::format("field of view: {}; pose: {}",
-                    source(BRUME_CAMERA_FIELD_OF_VIEW, camera.projection_source, camera.projection.has_value()),
-                    source(BRUME_CAMERA_POSE, camera.pose_source, camera.pose.has_value()));
+    const Imath::Box2i &display = file.header(color.part).displayWindow();
+    shot.format = format_of(file.parts()[std::size_t(color.part)].data_window, display, options);
+    const Camera camera = camera_of_picture(file, color, options, scene, frame);
+    shot.camera_source = fmt::format("field of view: {}; pose: {}", camera.projection ? camera.projection_source : "none",
+                                     camera.pose ? camera.pose_source : "none");
+    shot.camera_notes = camera.notes;
     shot.camera = camera_of(camera, display);
     return shot;
 }

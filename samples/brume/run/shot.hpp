@@ -1,11 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <brume/brume.h>
 
 #include "commands/options.hpp"
-#include "exr/file.hpp"
+#include "exr/resolve.hpp"
 
 namespace brume::tool {
 
@@ -19,10 +20,15 @@ brume_camera camera_of(const Camera &camera, const Imath::Box2i &display);
 struct Shot {
     brume_format format = BRUME_FORMAT_INIT;
     brume_camera camera = BRUME_CAMERA_INIT;
-    std::string camera_source;  ///< where field of view and pose came from
+    std::string camera_source;              ///< where field of view and pose came from
+    std::vector<std::string> camera_notes;  ///< metadata that was there and could not be used
 };
 
-/// `scene_camera`: what the scene gives itself (BRUME_CAMERA_...), which goes before the metadata.
-Shot shot_of(const Imf::Header &header, const Imath::Box2i &data, const PictureOptions &options, std::uint32_t scene_camera);
+/// Field of view and pose, each from the first that has it: the options, the scene, the file's metadata.
+Camera camera_of_picture(const ExrFile &file, const ColorChoice &color, const PictureOptions &options,
+                         const CameraBlock &scene, int frame);
+
+Shot shot_of(const ExrFile &file, const ColorChoice &color, const PictureOptions &options, const CameraBlock &scene,
+             int frame);
 
 }  // namespace brume::tool

@@ -63,6 +63,13 @@ ordered_json frame_of(const FrameStats &f)
 
 }  // namespace
 
+bool is_stream(const std::filesystem::path &file)
+{
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    return std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status);
+}
+
 std::size_t RunStats::count(Outcome outcome) const
 {
     return std::size_t(std::count_if(frames.begin(), frames.end(), [&](const auto &f) { return f.outcome == outcome; }));
@@ -100,9 +107,16 @@ void write_stats(const std::filesystem::path &file, const RunStats &stats)
                              {"clamped_values", clamped},
                              {"nan_depth", nan}}},
                            {"frames", frames}};
+    const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+    if (is_stream(file)) {
+        std::ofstream stream(file);
+        if (!(stream << text << std::flush))
+            throw FrameError(fmt::format("{}: cannot be written", file.string()));
+        return;
+    }
     PendingFile pending(file);
     std::ofstream stream(pending.path());
-    stream << out.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
+    stream << text;
     stream.close();
     if (!stream)
         throw FrameError(fmt::format("{}: cannot be written", file.string()));

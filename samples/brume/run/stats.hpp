@@ -35,6 +35,9 @@ struct RunStats {
     std::size_t count(Outcome outcome) const;
 };
 
+/// Whether text goes there as it comes: a pipe or a device such as /dev/stderr.
+bool is_stream(const std::filesystem::path &file);
+
 void write_stats(const std::filesystem::path &file, const RunStats &stats);
 
 }  // namespace brume::tool

@@ -83,10 +83,38 @@ private:
 
 }  // namespace
 
-PendingFile::PendingFile(std::filesystem::path final_path) : final_(std::move(final_path))
+std::filesystem::path place_of(const std::filesystem::path &output, std::string &why_not)
+{
+    namespace fs = std::filesystem;
+    constexpr int kMostLinks = 40;  // as many as Linux follows
+    fs::path place = output;
+    std::error_code error;
+    for (int i = 0; fs::is_symlink(fs::symlink_status(place, error)); ++i) {
+        if (i == kMostLinks) {
+            why_not = "is a loop of links";
+            return place;
+        }
+        place = place.parent_path() / fs::read_symlink(place, error);
+    }
+    const fs::file_status status = fs::status(place, error);
+    if (!place.has_filename() || fs::is_directory(status))
+        why_not = "is a folder";
+    else if (status.type() == fs::file_type::none || status.type() == fs::file_type::unknown)
+        why_not = "cannot be looked at: " + error.message();
+    else if (fs::exists(status) && !fs::is_regular_file(status))
+        why_not = "is a device or a pipe";
+    return place;
+}
+
+PendingFile::PendingFile(std::filesystem::path final_path)
 {
     static std::atomic<unsigned> serial{0};
-    const std::string name = fmt::format(".{}.{}-{}.partial", final_.filename().string(), ::getpid(), serial++);
+    std::string why_not;
+    final_ = place_of(final_path, why_not);
+    if (!why_not.empty())
+        throw FrameError(fmt::format("{}: {} (expected a file's name)", final_path.string(), why_not));
+    // Not made of the final name, which may be as long as a name can be.
+    const std::string name = fmt::format(".brume-{}-{}.partial", ::getpid(), serial++);
     temporary_ = final_.parent_path() / name;
     const Making making;
     const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
