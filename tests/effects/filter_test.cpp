@@ -386,8 +386,7 @@ TEST_P(Backends, SkyOptions)
                        {[](brume_format &f) {
                             f.sky = BRUME_SKY_CLAMP;
                             f.sky_distance = 5;
-                        },
-                        0, 0});
+                        }});
     EXPECT_NEAR(clamped.output.at(3, 3)[0], std::exp(-0.5), 1e-5);
 }
 
