@@ -38,7 +38,7 @@ protected:
 TEST_F(DepthTaken, AnotherSizeIsAnErrorThatGivesBoth)
 {
     write_exr(in_, {{rgb()}});
-    for (const Imath::V2i size : {Imath::V2i(16, 12), Imath::V2i(64, 48), Imath::V2i(30, 24)}) {
+    for (const Imath::V2i &size : {Imath::V2i(16, 12), Imath::V2i(64, 48), Imath::V2i(30, 24)}) {
         TestPart depth{{{"Z", Imf::FLOAT, constant(3)}}};
         depth.data = {{0, 0}, size - Imath::V2i(1)};
         write_exr(z_, {depth}, depth.data);

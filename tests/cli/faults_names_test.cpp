@@ -62,7 +62,7 @@ TEST_F(Names, NamesMayBeAsLongAsTheyCanBe)
 
 TEST_F(Names, AFolderIsNoOutput)
 {
-    for (const std::string out : {(folder_ / "new/").string(), folder_.path().string()}) {
+    for (const std::string &out : {(folder_ / "new/").string(), folder_.path().string()}) {
         const Result r = run(in_, out);
         EXPECT_EQ(r.status, 2);
         EXPECT_NE(r.err.find("is a folder"), std::string::npos) << r.err;
@@ -150,7 +150,7 @@ TEST_F(Names, OutputsMustNotFallOnWhatTheSceneReads)
     r = run(folder_ / "in.0001.exr", (folder_ / "o.exr").string(), {"--stats", (folder_ / "puffs.0001.csv").string()});
     EXPECT_EQ(r.status, 2);
     EXPECT_NE(r.err.find("would overwrite the input"), std::string::npos) << r.err;
-    write_exr(folder_ / "tau.0001.exr", {{rgb("tau")}});
+    write_exr(folder_ / "tau.0001.exr", {{rgb("tau.")}});
     const std::string tau = read_text(folder_ / "tau.0001.exr");
     r = run(folder_ / "in.0001.exr", (folder_ / "tau.0001.exr").string(),
             {"--input", "optical_depth=" + (folder_ / "tau.####.exr").string() + ":tau"});
