@@ -155,7 +155,11 @@ const brume_layer *read_frame_layers(const brume_layer *given, uint32_t count, c
     read_layers(given, count, name, true, out.layers);
     out.images.resize(count);
     for (uint32_t i = 0; i < count; ++i) {
-        out.images[i] = read_image(out.layers[i].image, out.layers[i].name);
+        try {
+            out.images[i] = read_image(out.layers[i].image, "image");
+        } catch (const Error &error) {
+            throw Error(error.status(), fmt::format("{}[{}] ({}).{}", name, i, out.layers[i].name, error.what()));
+        }
         out.layers[i].image = &out.images[i];
     }
     return out.layers.data();

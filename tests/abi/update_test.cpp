@@ -107,7 +107,6 @@ TEST_P(Updates, OfTheFormat)
     Plan plan = make_plan(context, scene, ray_format(width, height));
     frame(plan);
     brume_format other = ray_format(width, height);
-    other.depth_kind = BRUME_DEPTH_PLANAR;
     other.far_distance = 60;
     other.sky = BRUME_SKY_CLAMP;
     other.sky_distance = 90;
@@ -125,6 +124,10 @@ TEST_P(Updates, OfTheFormat)
     with_layer.outputs = outputs.data();
     with_layer.output_count = 1;
     expect_status(context.get(), brume_plan_update(plan.get(), scene.get(), &with_layer), BRUME_ERROR_FORMAT, "layers");
+    brume_format planar = other;
+    planar.depth_kind = BRUME_DEPTH_PLANAR;
+    expect_status(context.get(), brume_plan_update(plan.get(), scene.get(), &planar), BRUME_ERROR_FORMAT,
+                  "depth kind: 1 when planned, 0 now");
     brume_format cropped = other;
     cropped.display_width = 64;
     cropped.display_height = 48;
