@@ -52,7 +52,7 @@ brume_pass make_pass(brume_host_t &host, const char *name, const char *file, con
 void run(brume_host_t &host, brume_pass pass, const brume_plugin_image *images, int32_t width, int32_t height)
 {
     if (const brume_status status = host.run(pass, images, nullptr, width, height, nullptr))
-        throw Error(status, status == BRUME_ERROR_CANCELLED ? "cancelled" : "a pass of the host failed");
+        throw Error(status, "a pass of the host failed");
 }
 
 }  // namespace

@@ -538,8 +538,10 @@ brume_status brume_host_t::run(brume_pass pass, const brume_plugin_image *images
                                                       pass->layout.name, width, height));
     timer_->mark(pass->entry);
     Watch watch{context_->progress, share_before(pass->entry), share_before(pass->entry + 1)};
-    return context_->backend->run(*pass, images, constants, width, height, content_.scene(), user,
-                                  context_->progress.wanted() ? &watch : nullptr);
+    const brume_status status = context_->backend->run(*pass, images, constants, width, height, content_.scene(), user,
+                                                       context_->progress.wanted() ? &watch : nullptr);
+    context_->progress.throw_if_cancelled();
+    return status;
 }
 
 void brume_host_t::publish(const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count,

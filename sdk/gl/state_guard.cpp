@@ -47,32 +47,32 @@ GLint get(GLenum name, GLuint index)
     return value;
 }
 
-template <size_t count> std::vector<GLint> read_store(const Parameter (&parameters)[count], GLenum buffer)
+template <size_t count> FewValues<GLint> read_store(const Parameter (&parameters)[count], GLenum buffer)
 {
-    std::vector<GLint> values;
+    FewValues<GLint> values;
     for (const Parameter &parameter : parameters)
         values.push_back(get(parameter.name));
     values.push_back(get(buffer));
     return values;
 }
 
-template <size_t count> std::vector<GLint> initial_store(const Parameter (&parameters)[count])
+template <size_t count> FewValues<GLint> initial_store(const Parameter (&parameters)[count])
 {
-    std::vector<GLint> values;
+    FewValues<GLint> values;
     for (const Parameter &parameter : parameters)
         values.push_back(parameter.initial);
     values.push_back(0);
     return values;
 }
 
-template <size_t count> void set_store(const Parameter (&parameters)[count], GLenum buffer, const std::vector<GLint> &values)
+template <size_t count> void set_store(const Parameter (&parameters)[count], GLenum buffer, const FewValues<GLint> &values)
 {
     for (size_t i = 0; i < count; ++i)
         glPixelStorei(parameters[i].name, values[i]);
     glBindBuffer(buffer, GLuint(values[count]));
 }
 
-void set_scales(const std::vector<GLfloat> &values)
+void set_scales(const FewValues<GLfloat> &values)
 {
     for (size_t i = 0; i < std::size(pixel_scale); ++i)
         glPixelTransferf(pixel_scale[i].name, values[i]);

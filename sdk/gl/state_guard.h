@@ -3,11 +3,22 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <array>
 #include <vector>
 
 #include <epoxy/gl.h>
 
 namespace brume::gl {
+
+// As many as some group of state has; without memory of its own, since every frame keeps some.
+template <class Value> struct FewValues {
+    std::array<Value, 12> values{};
+    size_t count = 0;
+
+    void push_back(Value value) { values[count++] = value; }
+    Value &operator[](size_t i) { return values[i]; }
+    Value operator[](size_t i) const { return values[i]; }
+};
 
 struct ContextProperties {
     bool compatibility = false;  // fixed-function pixel transfer would alter uploads
@@ -46,8 +57,8 @@ private:
         GLint texture, level, layered, layer, access, format;
     };
     // Pixel-store parameters and the buffer, or fixed-function pixel transfer, in the order of their tables.
-    using Values = std::vector<GLint>;
-    using Scales = std::vector<GLfloat>;
+    using Values = FewValues<GLint>;
+    using Scales = FewValues<GLfloat>;
     void pixel_transfer();
 
     const uint32_t mode_;
