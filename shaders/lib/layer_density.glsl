@@ -1,11 +1,13 @@
 // Another renderer's fog in place of the scene's density (Iser 2018 sec. 6.2: the filter takes any integrated density).
 // Needs scene.glsl, ray.glsl, density.glsl.
 
+// What is not a number is clear air.
+//
 // P as each colour of the medium has it, and their mean by luminance, of another renderer's fog. mode: 1 optical depth, 2
 // transmittance. Colours that the medium does not have cannot be told apart from clear air.
 PURE float layer_depth(int mode, float value)
 {
-    float x = choose(is_finite(value), value, choose(value > R(0.0), R(1e30), mode == 1 ? R(0.0) : R(1.0)));
+    float x = choose(is_finite(value), value, choose(value > R(0.0), R(1e30), choose(value < R(0.0) || mode == 1, R(0.0), R(1.0))));
     return mode == 1 ? clamp(x, R(0.0), R(1e30)) : -log(clamp(x, R(1e-30), R(1.0)));
 }
 

@@ -71,12 +71,12 @@ TEST_P(LayersOn, OddValuesAreTheNearestThatMakeSense)
     const Json scene = filtered(Json::array({constant(1)}), {{"kernel", "calibrated"}});
     const Frame frame = lit_frame(16, 12);
     const float nan = NAN, inf = INFINITY;
-    const std::pair<float, float> of_depth[] = {{nan, 0}, {-3, 0}, {-inf, 0}, {inf, 1e30f}},
-                                  of_transmittance[] = {{-inf, 1e-30f}, {-1, 1e-30f}, {2, 1}, {inf, 1}};
+    const std::pair<float, float> of_depth[] = {{nan, 0}, {-3, 0}, {-inf, 0}, {inf, 1e30f}, {-0.0f, 0}},
+                                  of_transmittance[] = {{nan, 1}, {-inf, 1e-30f}, {-1, 1e-30f}, {2, 1}, {inf, 1}};
     for (const char *name : {"optical_depth", "transmittance"}) {
         const bool depth = std::string(name) == "optical_depth";
         Picture odd(16, 12, 3, depth ? 0.5f : 0.6f), plain = odd;
-        int x = 2;
+        int x = 1;
         for (auto [given, meant] : depth ? of_depth : of_transmittance) {
             std::fill_n(odd.at(x, 5), 3, given);
             std::fill_n(plain.at(x, 5), 3, meant);
