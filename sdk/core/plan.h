@@ -94,6 +94,7 @@ private:
         std::shared_ptr<brume::Image> image;
     };
 
+    void expect_shadow_maps() const;
     void choose_effects();
     void order_effects();
     void set_parameters();
