@@ -49,6 +49,8 @@ public:
         camera_.right = {1, 0, 0};
         camera_.up = {0, 1, 0};
         camera_.back = {0, 0, 1};
+        camera_.metres_per_unit = 1;
+        camera_.tangent_scale = {1, -1};
         settings.light_count = int(c.lights.size());
         settings.gaussian_count = n;
         brume::airlight::set_quality(settings, max_error);
