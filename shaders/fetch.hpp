@@ -29,6 +29,11 @@ PURE vec4 texelFetch(sampler2D image, ivec2 texel, int /*lod*/)
     return vec4(p[0], image.channels == 2 ? p[1] : real(0), real(0), real(1));
 }
 
+PURE ivec2 textureSize(sampler2D image, int /*lod*/)
+{
+    return ivec2(image.width, image.height);
+}
+
 // Four channels that the compiler keeps in one register, where it takes glm's vec4 apart; by reference throughout, since
 // the double one has no calling convention without AVX.
 using Four = real __attribute__((vector_size(4 * sizeof(real))));

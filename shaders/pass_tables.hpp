@@ -35,6 +35,9 @@ template <> struct ConstantType<float> {
 template <> struct ConstantType<brume::maths_float::ivec2> {
     static constexpr uint32_t type = BRUME_CONSTANT_INT, components = 2;
 };
+template <> struct ConstantType<brume::maths_float::ivec4> {
+    static constexpr uint32_t type = BRUME_CONSTANT_INT, components = 4;
+};
 template <> struct ConstantType<brume::maths_float::vec2> {
     static constexpr uint32_t type = BRUME_CONSTANT_FLOAT, components = 2;
 };

@@ -8,6 +8,7 @@
 #include "encounters.h"
 #include "layers.h"
 #include "passes.h"
+#include "shadow_maps.h"
 #include "state.h"
 
 namespace airlight {
@@ -29,7 +30,7 @@ public:
         state_->attenuates = services.made(host, "attenuated_radiance") != BRUME_MADE_EARLIER;
         state_->layered = services.made(host, "density_rgb") == BRUME_MADE_EARLIER;
         for (uint32_t i = 0; i < layer_count; ++i)
-            outputs_ |= request.layers[i] ? 1u << i : 0;
+            outputs_ |= request.layers[i] && layer_table[i].flags & BRUME_LAYER_OUTPUT ? 1u << i : 0;
     }
 
     brume_status plan(std::unique_ptr<State> &out);
@@ -47,6 +48,7 @@ private:
     }
 
     brume_status check_tier();
+    brume_status plan_shadows();
     brume_status need_camera();
     double gather_operations() const;
     brume_status plan_gather();
@@ -72,6 +74,23 @@ brume_status Planner::check_tier()
         return fail("tier: sun in a medium that is not constant; expected tier nodes: Sun et al. know homogeneous media only");
     if (m.phase[0] != 0 || m.phase[3] != 0)
         return fail("tier: " + name + " with a phase function that is not isotropic; expected tier nodes, or g 0");
+    return BRUME_OK;
+}
+
+brume_status Planner::plan_shadows()
+{
+    const std::string count = std::to_string(shadowed_lights(scene_));
+    if (count == "0")
+        return BRUME_OK;
+    if (!request_.layers[layer_shadow])
+        return drop("shadows", count + " lights have a shadow map; frames bring no layer shadow");
+    if (shadowed_lights(scene_) > most_shadow_maps)
+        return fail("lights: " + count + " with a shadow map; expected at most " + std::to_string(most_shadow_maps));
+    const Tier tier = state_->parameters.tier;
+    if (tier == Tier::sun || tier == Tier::fogshop)
+        return fail(std::string("tier: ") + (tier == Tier::sun ? "sun" : "fogshop") +
+                    " with a shadow map; expected tier nodes: the published tiers know no shadows");
+    state_->shadowed = true;
     return BRUME_OK;
 }
 
@@ -141,6 +160,7 @@ brume_status Planner::plan_gather()
         std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
             (scene_.environment_count ? " and the environment" : "") +
             (state.parameters.orders == Orders::all ? " scattered any number of times" : " scattered once") +
+            (state.shadowed ? ", in the shadows of solid things" : "") +
             (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
         pixels * (4 + 16), pixels * gather_operations());
 }
@@ -170,6 +190,9 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     if (brume_status s = need_camera())
         return s;
+    if (state.lit)
+        if (brume_status s = plan_shadows())
+            return s;
     if (brume_status s = state.lit ? plan_gather() : drop("gather", why_unlit(dense)))
         return s;
     const double pixels = double(state.width) * state.height;
@@ -195,6 +218,9 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
 {
     State &state = *static_cast<State *>(opaque);
+    if (state.shadowed)
+        if (const std::string problem = take_shadow_maps(*frame, state); !problem.empty())
+            return services->fail(host, BRUME_ERROR_ARGUMENT, problem.c_str());
     if (state.lit)
         if (brume_status s = refresh(*services, host, *frame->scene, state))
             return s;

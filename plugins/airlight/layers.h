@@ -1,4 +1,4 @@
-// What the effect fills, makes and uses; the enums of state.h count them.
+// What the effect reads, fills, makes and uses; the enums of state.h count them.
 #pragma once
 #include <iterator>
 
@@ -18,11 +18,13 @@ constexpr brume_layer_info layer_table[] = {
     layer_filled("airlight", "radiance of the lights and the environment scattered once toward the camera"),
     layer_filled("airlight_error", "estimate of the airlight's error"),
     layer_filled("light_airlight", "airlight of one light", BRUME_LAYER_OF_LIGHT),
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT | BRUME_LAYER_ANY_SIZE, 1, 0, "shadow",
+     "depth as seen from the light, where brume_light.shadow_kind says: what stands in its way throws shadows into the medium"},
 };
 static_assert(std::size(layer_table) == layer_count);
 
 constexpr const char *made[] = {"attenuated_radiance", "single_scattering", "all_scattering"};
-constexpr const char *used[] = {"density", "density_rgb", "gaussian_density", "gaussians", "lights"};
+constexpr const char *used[] = {"density", "density_rgb", "gaussian_density", "gaussians", "lights", "light_shadows"};
 static_assert(std::size(used) == product_count);
 
 }  // namespace airlight

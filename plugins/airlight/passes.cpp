@@ -34,6 +34,11 @@ constexpr brume_slot gather_slots[] = {fetch("depth"),
                                        fetch("sun_table"),
                                        fetch("environment"),
                                        fetch("environment_table"),
+                                       fetch("light_shadows"),
+                                       fetch("shadow_0"),
+                                       fetch("shadow_1"),
+                                       fetch("shadow_2"),
+                                       fetch("shadow_3"),
                                        write("radiance"),
                                        write("error"),
                                        write("distances")};
@@ -63,6 +68,7 @@ constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, airli
                                               BRUME_CONSTANT_OF(Constants, airlight, culled),
                                               BRUME_CONSTANT_OF(Constants, airlight, orders),
                                               BRUME_CONSTANT_OF(Constants, airlight, ground),
+                                              BRUME_CONSTANT_OF(Constants, airlight, shadowed),
                                               BRUME_CONSTANT(Constants, size),
                                               BRUME_CONSTANT(Constants, light_range),
                                               BRUME_CONSTANT(Constants, reduction)};
@@ -81,7 +87,7 @@ brume_status create_gather(const brume_services &services, brume_host host, Stat
         pass(state.lit ? "gather" : "compose", gather_slots, state.parameters.tier == Tier::reference ? 1 : 4);
     if (state.parameters.tier != Tier::reference)
         return create(services, host, desc, "airlight_gather.comp", pass_text("airlight_gather.comp"),
-                      define("TIER", tier_of(state)), gather_rows, state.gather);
+                      define("TIER", tier_of(state)) + define("SHADOWED", state.shadowed), gather_rows, state.gather);
     desc.rows = gather_reference_rows;
     return services.create_pass(host, &desc, &state.gather);
 }
@@ -153,6 +159,9 @@ brume_status Frame::gather(const Constants &constants, brume_plugin_image to, br
     images[sun_table] = state_.sun_table;
     images[environment] = state_.environment;
     images[environment_table] = state_.environment_table;
+    images[light_shadows] = product(product_light_shadows);
+    for (uint32_t i = 0; i < most_shadow_maps; ++i)
+        images[shadow_0 + i] = state_.shadow_maps[i].image;
     images[radiance] = to;
     images[error] = to_error;
     images[distances] = to_distances;

@@ -5,6 +5,7 @@
 #include "passes.h"
 #include "reference_ray.h"
 #include "settings.h"
+#include "state.h"
 
 namespace airlight {
 
@@ -18,6 +19,20 @@ Data copy_of(const brume_plugin_pixels &p)
 {
     return p.data ? Data(p.data, size_t(p.width) * size_t(p.height), p.channels) : Data(nullptr, 0, 4);
 }
+
+struct WideMap {
+    explicit WideMap(const brume_plugin_pixels &p) : values(size_t(p.data ? p.width : 0) * size_t(p.height))
+    {
+        for (int y = 0; p.data && y < p.height; ++y)
+            for (int x = 0; x < p.width; ++x)
+                values[size_t(y) * size_t(p.width) + size_t(x)] = *at(p, x, y);
+        texture = {values.data(), p.width, p.width, p.height, 1};
+    }
+    WideMap(WideMap &&) = default;
+
+    std::vector<double> values;
+    Texture texture;
+};
 
 }  // namespace
 
@@ -39,9 +54,18 @@ brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first,
         lights.push_back(light_at(light_data.texture(), int(i)));
     const Data environment = copy_of(slots[gather::environment]);
     const Data environment_table = copy_of(slots[gather::environment_table]);
+    const Data light_shadows = light_shadows_of(scene);
+    const Texture shadow_texels = light_shadows.texture();
+    std::vector<WideMap> maps;
+    for (int i = 0; i < int(most_shadow_maps); ++i)
+        maps.emplace_back(slots[gather::shadow_0 + i]);
     const int environment_order = constants.airlight.environment_order;
     const brume::maths_float::AirlightSettings &settings = constants.airlight;
-    const brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, vec4(settings.ground)};
+    brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, vec4(settings.ground)};
+    seen.shadowed = settings.shadowed;
+    seen.light_shadows = &shadow_texels;
+    for (size_t i = 0; i < maps.size(); ++i)
+        seen.shadows[i] = &maps[i].texture;
     return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.size);
         const Ray ray = pixel_ray(camera, vec2(pixel) + 0.5, *at(depth, pixel.x, pixel.y));

@@ -37,9 +37,10 @@ double terms_integral(const Medium &medium, vec3 origin, vec3 direction, double 
 // One light's integrand along one ray.
 class Integrand {
 public:
-    Integrand(const ReferenceScene &scene, vec3 direction, const Light &light)
-        : scene_(scene), direction_(direction), light_(light), aspect_(aspect_of(light, direction))
+    Integrand(const ReferenceScene &scene, vec3 direction, int light, double distance)
+        : scene_(scene), direction_(direction), light_(scene.lights[size_t(light)]), aspect_(aspect_of(light_, direction))
     {
+        find_shadows(light, distance);
         for (const Gaussian &g : scene.gaussians) {
             seen_.push_back(sight_profile(scene.medium, scene.camera, g, direction));
             most_.push_back(profile_along(g, g.center, direction).peak);
@@ -57,7 +58,7 @@ public:
             d = constant_distance = glm::length(from);
             way = from / std::max(d, 1e-300);
         }
-        const double strength = lit_strength(medium, light_, aspect_, direction_, t);
+        const double strength = in_shadow(t) ? 0 : lit_strength(medium, light_, aspect_, direction_, t);
         if (strength <= 0 && scene_.orders == orders_single)
             return vec3(0);
         double depth = terms_integral(medium, vec3(0), direction_, t, t);
@@ -101,6 +102,7 @@ public:
                     t.push_back(lit.y);
                 }
         }
+        t.insert(t.end(), edges_.begin(), edges_.end());
         // Many Gaussians part the ray finely enough between them.
         const bool many = seen_.size() > 16;
         for (const Profile &p : seen_)
@@ -114,12 +116,42 @@ public:
     }
 
 private:
+    void find_shadows(int light, double distance)
+    {
+        const int slot = shadow_slot(scene_.shadowed, light);
+        if (slot < 0)
+            return;
+        const Texture none;
+        auto map = [&](int i) -> const Texture & { return scene_.shadows[i] ? *scene_.shadows[i] : none; };
+        const Texture &light_shadows = *scene_.light_shadows, &shadow_0 = map(0), &shadow_1 = map(1), &shadow_2 = map(2),
+                      &shadow_3 = map(3);
+        const double reach = scene_.gaussians.empty() ? terms_range(scene_.medium, Sight{direction_, distance, 0, 0}).y
+                                                      : std::min(distance, quadrature_limit);
+        const ShadowRay ray = shadow_ray(scene_.camera, SHADOW_MAP_PASSED, slot, light, direction_, reach);
+        edges_.push_back(-1);  // so that a ray of which nothing is lit has edges, too
+        edges_.push_back(-1);
+        for (LitWalk walk = next_lit(SHADOW_MAP_PASSED, ray, lit_walk(0), distance); walk.part.x < walk.part.y;
+             walk = next_lit(SHADOW_MAP_PASSED, ray, walk, distance)) {
+            edges_.push_back(walk.part.x);
+            edges_.push_back(walk.part.y);
+        }
+    }
+
+    bool in_shadow(double t) const
+    {
+        if (edges_.empty())
+            return false;
+        const auto after = std::upper_bound(edges_.begin(), edges_.end(), t);
+        return (after - edges_.begin()) % 2 == 0;
+    }
+
     const ReferenceScene &scene_;
     vec3 direction_;
     const Light &light_;
     Aspect aspect_;
     std::vector<Profile> seen_;  // the Gaussians along the ray
     std::vector<double> most_;   // their peaks along rays through their centres
+    std::vector<double> edges_;  // begins and ends of what is lit, by turns; none: all is
 };
 
 struct Piece {
@@ -158,9 +190,9 @@ double largest(vec3 v)
     return std::max({v.x, v.y, v.z});
 }
 
-ReferenceAirlight of_light(const ReferenceScene &scene, vec3 direction, double distance, const Light &light, double tolerance)
+ReferenceAirlight of_light(const ReferenceScene &scene, vec3 direction, double distance, int light, double tolerance)
 {
-    const Integrand f(scene, direction, light);
+    const Integrand f(scene, direction, light, distance);
     const std::vector<double> breaks = f.breaks(distance);
     std::vector<Piece> first;
     ReferenceAirlight out;
@@ -202,7 +234,7 @@ ReferenceAirlight reference_airlight(const ReferenceScene &scene, vec3 direction
 {
     ReferenceAirlight sum;
     for (int l = first_light; l < last_light; ++l) {
-        const ReferenceAirlight one = of_light(scene, direction, std::clamp(distance, 0.0, far_away), scene.lights[size_t(l)], tolerance);
+        const ReferenceAirlight one = of_light(scene, direction, std::clamp(distance, 0.0, far_away), l, tolerance);
         sum.radiance += one.radiance;
         sum.error += one.error;
         sum.evaluations += one.evaluations;

@@ -13,6 +13,11 @@ struct ReferenceScene {
     maths_double::Camera camera{};  // its axes place the medium's noise
     int orders = maths_double::orders_single;
     maths_double::vec4 ground{};
+
+    // Shadow maps, where shadowed names any.
+    maths_double::ivec4 shadowed{};
+    const maths_double::Texture *light_shadows = nullptr;
+    const maths_double::Texture *shadows[4] = {};
 };
 
 struct ReferenceAirlight {

@@ -28,6 +28,8 @@ AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene
         const brume_plugin_camera &c = *scene.camera;
         s.ground = vec4(c.right[axis], c.up[axis], c.back[axis], float(scene.position[axis] - state.parameters.ground_height));
     }
+    for (int i = 0; i < int(most_shadow_maps); ++i)
+        s.shadowed[i] = state.shadow_maps[i].light + 1;
     return s;
 }
 

@@ -9,8 +9,24 @@
 namespace airlight {
 
 // In the order of the effect's tables.
-enum Layer { layer_transmittance, layer_optical_depth, layer_airlight, layer_airlight_error, layer_light_airlight, layer_count };
-enum Product { product_density, product_density_rgb, product_gaussian_density, product_gaussians, product_lights, product_count };
+enum Layer {
+    layer_transmittance,
+    layer_optical_depth,
+    layer_airlight,
+    layer_airlight_error,
+    layer_light_airlight,
+    layer_shadow,
+    layer_count
+};
+enum Product {
+    product_density,
+    product_density_rgb,
+    product_gaussian_density,
+    product_gaussians,
+    product_lights,
+    product_light_shadows,
+    product_count
+};
 
 // Of the data images.
 enum Upload : uint32_t {
@@ -23,6 +39,13 @@ enum Upload : uint32_t {
     upload_environment_table
 };
 
+constexpr uint32_t most_shadow_maps = 4;
+
+struct ShadowMap {
+    int32_t light = -1;
+    brume_plugin_image image = nullptr;
+};
+
 // What one plan of this effect holds. Images that a plan does not need are NULL.
 struct State {
     Parameters parameters;
@@ -31,6 +54,7 @@ struct State {
     bool lit = false;          // some light or environment scatters in the medium
     bool attenuates = false;   // no effect before this one does
     bool layered = false;      // a layer of the caller's stands for the medium's density
+    bool shadowed = false;     // some light has a shadow map, which frames bring
     bool has_blobs = false;    // tier fogshop, in a medium with Gaussians
     brume_plugin_image radiance = nullptr;   // airlight of one pixel per square
     brume_plugin_image error = nullptr;      // its estimated error
@@ -50,6 +74,8 @@ struct State {
     brume_plugin_camera camera{};
     double position[3] = {};
     bool fresh = false;
+
+    ShadowMap shadow_maps[most_shadow_maps];  // of the frame at hand
 
     // NULL: not needed.
     brume_pass blobs = nullptr;

@@ -24,11 +24,12 @@ public:
 private:
     void upload(brume_host_t &host, const brume_plugin_scene &scene);
     void upload_gaussians(brume_host_t &host, const brume_plugin_scene &scene);
+    void upload_lights(brume_host_t &host, const brume_plugin_scene &scene);
     void upload_visible_lights(brume_host_t &host, const brume_plugin_scene &scene);
     float longest_list() const;
 
     int32_t width_ = 0, height_ = 0;
-    bool lights_ = false, visible_lights_ = false;
+    bool lights_ = false, light_shadows_ = false, visible_lights_ = false;
     int layer_ = 0;  // what the caller gives in place of the scene's density: 0 nothing, 1 optical depth, 2 transmittance
     brume_plugin_image density_ = nullptr, density_rgb_ = nullptr, gaussian_density_ = nullptr;  // null: not made
     brume_pass density_pass_ = nullptr, gaussian_pass_ = nullptr;

@@ -52,7 +52,7 @@ void FrameLayers::plan(const Format &format, const EffectRegistry &effects)
                     known.push_back(of.name);
                     if (of.name != names[i].name)
                         continue;
-                    const uint32_t flags = of.flags & (directions | BRUME_LAYER_OF_LIGHT);
+                    const uint32_t flags = of.flags & (directions | BRUME_LAYER_OF_LIGHT | BRUME_LAYER_ANY_SIZE);
                     if (layer.flags && (layer.flags != flags || layer.channels != of.channels))
                         throw Error(BRUME_ERROR_PLUGIN, fmt::format("layer {}: {} and {} do not mean the same by it", of.name,
                                                                     first, owner));

@@ -15,7 +15,7 @@ const std::vector<Layer> &host_layers();
 // A layer of a format, and how many effects (the host counts as one) do something with it.
 struct FormatLayer {
     Format::LayerName name;
-    uint32_t flags = 0;     // BRUME_LAYER_INPUT or _OUTPUT, and _OF_LIGHT
+    uint32_t flags = 0;     // BRUME_LAYER_INPUT or _OUTPUT, _OF_LIGHT and _ANY_SIZE
     uint32_t channels = 3;
 };
 
@@ -28,6 +28,8 @@ public:
     // For each layer of an effect's table: 1 if the format has it.
     std::vector<uint32_t> given(const std::vector<Layer> &table) const;
     bool has_input(std::string_view name) const { return find(name, BRUME_LAYER_INPUT) != nullptr; }
+    // Of an input that the format has: whether its images may have another size than the frame's.
+    bool has_any_size(std::string_view name) const { return find(name, BRUME_LAYER_INPUT)->flags & BRUME_LAYER_ANY_SIZE; }
 
     const std::vector<FormatLayer> &all() const { return layers_; }
 

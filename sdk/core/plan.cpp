@@ -77,6 +77,7 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
                                                              format_.height, largest));
         try {
             layers_.plan(format_, context_->effects);
+            expect_shadow_maps();
             choose_effects();
             order_effects();
             set_parameters();
@@ -89,6 +90,15 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
             throw;
         }
     });
+}
+
+void brume_host_t::expect_shadow_maps() const
+{
+    for (size_t i = 0; i < scene_.lights.size() && !layers_.has_input("shadow"); ++i)
+        if (const std::string &file = scene_.lights[i].shadow.file; !file.empty())
+            throw Error(BRUME_ERROR_SCENE, fmt::format("lights[{}].shadow.file: {} is not read by the library; expected the layer "
+                                                       "shadow among format.inputs, and frames to bring it for light {}",
+                                                       i, file, i));
 }
 
 brume_host_t::~brume_host_t()

@@ -97,6 +97,7 @@ private:
     };
 
     std::string wakes(const brume::Scene &scene, const brume::Format &format) const;
+    void expect_shadow_maps() const;
     void choose_effects();
     void order_effects();
     void set_parameters();

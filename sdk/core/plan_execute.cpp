@@ -14,10 +14,14 @@ using namespace brume;
 
 void brume_host_t::check_frame(const brume_frame &frame) const
 {
-    auto check = [&](const brume_image *image, const char *what, bool writable, uint32_t most_channels) {
+    auto check = [&](const brume_image *image, const char *what, bool writable, uint32_t most_channels, bool any_size = false) {
         if (!image)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: NULL", what));
-        if (image->width != format_.width || image->height != format_.height)
+        const int32_t largest = context_->backend->largest_size();
+        if (any_size && (image->width < 1 || image->height < 1 || image->width > largest || image->height > largest))
+            throw Error(BRUME_ERROR_FORMAT,
+                        fmt::format("{}: {} x {}; expected sides from 1 to {}", what, image->width, image->height, largest));
+        if (!any_size && (image->width != format_.width || image->height != format_.height))
             throw Error(BRUME_ERROR_FORMAT, fmt::format("{}: {} x {}; the plan was made for {} x {}", what, image->width,
                                                         image->height, format_.width, format_.height));
         if (image->channels > most_channels)
@@ -36,7 +40,7 @@ void brume_host_t::check_frame(const brume_frame &frame) const
         check(frame.depth, "depth", false, 1);
     layers_.check(frame, scene_.lights.size());
     for (uint32_t i = 0; i < frame.input_count; ++i)
-        check(frame.inputs[i].image, frame.inputs[i].name, false, 4);
+        check(frame.inputs[i].image, frame.inputs[i].name, false, 4, layers_.has_any_size(frame.inputs[i].name));
     for (uint32_t i = 0; i < frame.output_count; ++i)
         check(frame.outputs[i].image, frame.outputs[i].name, true, 4);
     if (same_memory(*frame.color, *frame.output) && frame.color->kind == BRUME_IMAGE_HOST &&

@@ -179,10 +179,12 @@ Layer copy_layer(const brume_layer_info &info, const std::string &index)
     const uint32_t direction = info.flags & directions;
     if (direction != BRUME_LAYER_INPUT && direction != BRUME_LAYER_OUTPUT)
         refuse("{}.flags: {:#x}; expected one of BRUME_LAYER_INPUT and BRUME_LAYER_OUTPUT", index, info.flags);
-    if (info.flags & ~(directions | BRUME_LAYER_NEEDED | BRUME_LAYER_OF_LIGHT))
+    if (info.flags & ~(directions | BRUME_LAYER_NEEDED | BRUME_LAYER_OF_LIGHT | BRUME_LAYER_ANY_SIZE))
         refuse("{}.flags: {:#x}; expected BRUME_LAYER_... flags of this library", index, info.flags);
     if (info.flags & BRUME_LAYER_NEEDED && direction != BRUME_LAYER_INPUT)
         refuse("{}.flags: {:#x}; expected BRUME_LAYER_NEEDED of inputs only", index, info.flags);
+    if (info.flags & BRUME_LAYER_ANY_SIZE && direction != BRUME_LAYER_INPUT)
+        refuse("{}.flags: {:#x}; expected BRUME_LAYER_ANY_SIZE of inputs only", index, info.flags);
     if (info.channels != 1 && info.channels != 3)
         refuse("{}.channels: {}; expected 1 or 3", index, info.channels);
     return layer;

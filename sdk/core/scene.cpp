@@ -58,7 +58,8 @@ bool animated(const Medium &medium)
 bool animated(const Light &light)
 {
     return any_animated(light.position) || any_animated(light.direction) || any_animated(light.intensity) ||
-           light.radius.animated() || light.angle.animated() || light.penumbra.animated() || light.distance.animated();
+           light.radius.animated() || light.angle.animated() || light.penumbra.animated() || light.distance.animated() ||
+           light.shadow.extent.animated() || any_animated(light.shadow.to_world);
 }
 
 bool animated(const Camera &camera)

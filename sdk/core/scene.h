@@ -70,6 +70,15 @@ struct Medium {
     Noise noise;
 };
 
+// Where a light's shadow map looks.
+struct LightShadow {
+    uint32_t kind = BRUME_SHADOW_NONE;
+    uint32_t depth = BRUME_DEPTH_PLANAR;
+    Number extent = 0.0;  // as brume_light.shadow_extent
+    std::array<Number, 16> to_world{};
+    std::string file;  // map named by the scene's text
+};
+
 struct Light {
     uint32_t type = BRUME_LIGHT_POINT;
     Number3 position{};  // scene units
@@ -79,6 +88,7 @@ struct Light {
     Number angle = 0.7853981633974483;  // [rad], of the whole cone
     Number penumbra = 0.1;
     Number distance = 0.0;  // scene units
+    LightShadow shadow{};
 };
 
 // Distant light as real spherical harmonics in world axes.

@@ -1,12 +1,15 @@
 #include "core/scene_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/scene_ranges.h"
 
 namespace brume {
 namespace {
+
+constexpr double rigid_tolerance = 1e-3;
 
 void check(double value, const Range &range, const std::string &name)
 {
@@ -34,6 +37,24 @@ void check_direction(const Number3 &direction, const std::string &name)
 }
 
 }  // namespace
+
+std::string rigid_defect(const std::array<double, 16> &m)
+{
+    for (size_t column = 0; column < 4; ++column)
+        if (m[12 + column] != (column == 3 ? 1.0 : 0.0))
+            return fmt::format("last row {} {} {} {}", m[12], m[13], m[14], m[15]);
+    for (size_t a = 0; a < 3; ++a) {
+        for (size_t b = a; b < 3; ++b) {
+            const double product = m[a] * m[b] + m[4 + a] * m[4 + b] + m[8 + a] * m[8 + b];
+            if (!(std::abs(product - (a == b)) <= rigid_tolerance))
+                return a == b ? fmt::format("column {} has length {:.6g}", a, std::sqrt(product))
+                              : fmt::format("columns {} and {} have the product {:.6g}", a, b, product);
+        }
+    }
+    const double determinant =
+        m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
+    return determinant > 0.0 ? "" : "it mirrors: its determinant is negative";
+}
 
 void check_medium(const Medium &medium)
 {
@@ -85,8 +106,36 @@ void check_gaussian(const Gaussian &gaussian, const std::string &name)
     check(gaussian.amplitude, ranges::not_negative, name + ".amplitude");
 }
 
+namespace {
+
+void check_shadow(const Light &light, const std::string &name)
+{
+    const LightShadow &shadow = light.shadow;
+    if (shadow.kind == BRUME_SHADOW_NONE)
+        return;
+    const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
+    if (shadow.kind != (parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE))
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_kind: {}; expected BRUME_SHADOW_NONE or {}", name, shadow.kind,
+                                parallel ? "_ORTHOGRAPHIC for a directional light" : "_PERSPECTIVE for a point or spot light"));
+    if (shadow.depth != BRUME_DEPTH_PLANAR && shadow.depth != BRUME_DEPTH_RAY)
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY", name, shadow.depth));
+    check(shadow.extent, parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
+    std::array<double, 16> matrix;
+    for (size_t i = 0; i < 16; ++i) {
+        check(shadow.to_world[i], ranges::any, fmt::format("{}.shadow_to_world[{}]", name, i));
+        matrix[i] = shadow.to_world[i].at(0);
+    }
+    if (const std::string defect = rigid_defect(matrix); !defect.empty())
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_to_world: {}; expected a rigid motion", name, defect));
+}
+
+}  // namespace
+
 void check_light(const Light &light, const std::string &name)
 {
+    check_shadow(light, name);
     if (light.type > BRUME_LIGHT_DIRECTIONAL)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
     check(light.intensity, ranges::not_negative, name + ".intensity");

@@ -9,6 +9,9 @@ void check_gaussian(const Gaussian &gaussian, const std::string &name);
 void check_light(const Light &light, const std::string &name);
 void check_environment(const Environment &environment);
 
+// Says what is wrong with a matrix as a rigid motion; empty if nothing is.
+std::string rigid_defect(const std::array<double, 16> &m);
+
 // Spherical harmonics up to a whole order, at most the fifth.
 constexpr bool is_environment_count(size_t count)
 {

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include <fmt/format.h>
 
 #include "core/effects.h"
@@ -12,51 +8,6 @@
 
 namespace brume {
 namespace {
-
-constexpr double rigid_tolerance = 1e-3;
-
-// Says what is wrong with a matrix as a rigid motion; empty if nothing is.
-std::string rigid_defect(const std::array<double, 16> &m)
-{
-    for (size_t column = 0; column < 4; ++column)
-        if (m[12 + column] != (column == 3 ? 1.0 : 0.0))
-            return fmt::format("last row {} {} {} {}", m[12], m[13], m[14], m[15]);
-    for (size_t a = 0; a < 3; ++a) {
-        for (size_t b = a; b < 3; ++b) {
-            const double product = m[a] * m[b] + m[4 + a] * m[4 + b] + m[8 + a] * m[8 + b];
-            if (!(std::abs(product - (a == b)) <= rigid_tolerance))
-                return a == b ? fmt::format("column {} has length {:.6g}", a, std::sqrt(product))
-                              : fmt::format("columns {} and {} have the product {:.6g}", a, b, product);
-        }
-    }
-    const double determinant =
-        m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
-    return determinant > 0.0 ? "" : "it mirrors: its determinant is negative";
-}
-
-std::array<Number, 16> read_matrix(const JsonNode &node)
-{
-    const std::string what = "4 rows of 4 numbers";
-    std::array<Number, 16> matrix;
-    std::set<double> frames;
-    node.check_array_size(4, what);
-    for (size_t row = 0; row < 4; ++row) {
-        node.item(row).check_array_size(4, what);
-        for (size_t column = 0; column < 4; ++column) {
-            const Number &element = matrix[4 * row + column] = read_number(node.item(row).item(column), ranges::any);
-            for (const auto &key : element.keys)
-                frames.insert(key.first);
-        }
-    }
-    for (double frame : frames) {
-        std::array<double, 16> values;
-        std::transform(matrix.begin(), matrix.end(), values.begin(), [&](const Number &n) { return n.at(frame); });
-        if (const std::string defect = rigid_defect(values); !defect.empty())
-            node.fail(fmt::format("{}{}; expected a rigid motion: orthonormal columns, determinant 1, last row 0 0 0 1",
-                                  defect, frames.size() > 1 ? fmt::format(" at frame {}", frame) : ""));
-    }
-    return matrix;
-}
 
 Camera read_camera(const JsonNode &node)
 {
@@ -171,7 +122,7 @@ Scene read_scene(const JsonNode &root, const std::filesystem::path &folder, cons
     if (const auto medium = root.find("medium"))
         scene.medium = read_medium(*medium, folder);
     if (const auto lights = root.find("lights"))
-        scene.lights = read_lights(*lights);
+        scene.lights = read_lights(*lights, folder);
     if (const auto environment = root.find("environment"))
         scene.environment = read_environment(*environment, folder);
     if (const auto effects = root.find("effects"))

@@ -7,20 +7,40 @@
 namespace brume {
 namespace {
 
-Light read_light(const JsonNode &node)
+LightShadow read_shadow(const JsonNode &node, bool parallel, const std::filesystem::path &folder)
+{
+    const char *const extent = parallel ? "orthographic_width" : "vertical_fov";
+    node.allow_only({"file", "camera_to_world", extent, "depth"});
+    LightShadow shadow;
+    shadow.kind = parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE;
+    shadow.file = (folder / node.get("file").string("the name of an image")).string();
+    shadow.to_world = read_matrix(node.get("camera_to_world"));
+    shadow.extent = parallel ? read_number(node.get(extent), ranges::positive)
+                             : in_radians(read_number(node.get(extent), ranges::field_of_view));
+    if (const auto depth = node.find("depth")) {
+        const std::string what = "\"planar\" or \"ray\"";
+        const std::string &kind = depth->string(what);
+        if (kind != "planar" && kind != "ray")
+            depth->expected(what);
+        shadow.depth = kind == "ray" ? BRUME_DEPTH_RAY : BRUME_DEPTH_PLANAR;
+    }
+    return shadow;
+}
+
+Light read_light(const JsonNode &node, const std::filesystem::path &folder)
 {
     const JsonNode type = node.get("type");
     const std::string what = "\"point\", \"spot\" or \"directional\"";
     const std::string &name = type.string(what);
     Light light;
     if (name == "point") {
-        node.allow_only({"type", "intensity", "position", "radius"});
+        node.allow_only({"type", "intensity", "position", "radius", "shadow"});
     } else if (name == "spot") {
         light.type = BRUME_LIGHT_SPOT;
-        node.allow_only({"type", "intensity", "position", "radius", "direction", "angle", "penumbra"});
+        node.allow_only({"type", "intensity", "position", "radius", "direction", "angle", "penumbra", "shadow"});
     } else if (name == "directional") {
         light.type = BRUME_LIGHT_DIRECTIONAL;
-        node.allow_only({"type", "intensity", "direction", "distance"});
+        node.allow_only({"type", "intensity", "direction", "distance", "shadow"});
     } else {
         type.expected(what);
     }
@@ -37,19 +57,21 @@ Light read_light(const JsonNode &node)
         light.penumbra = read_number(*penumbra, ranges::fraction);
     if (const auto distance = node.find("distance"))
         light.distance = read_number(*distance, ranges::not_negative);
+    if (const auto shadow = node.find("shadow"))
+        light.shadow = read_shadow(*shadow, light.type == BRUME_LIGHT_DIRECTIONAL, folder);
     return light;
 }
 
 }  // namespace
 
-std::vector<Light> read_lights(const JsonNode &node)
+std::vector<Light> read_lights(const JsonNode &node, const std::filesystem::path &folder)
 {
     const size_t count = node.array_size("an array of lights");
     if (count > BRUME_MAX_LIGHTS)
         node.expected(fmt::format("at most {} lights", BRUME_MAX_LIGHTS));
     std::vector<Light> lights;
     for (size_t i = 0; i < count; ++i)
-        lights.push_back(read_light(node.item(i)));
+        lights.push_back(read_light(node.item(i), folder));
     return lights;
 }
 

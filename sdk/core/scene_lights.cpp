@@ -16,11 +16,39 @@ void copy(const std::array<double, 3> &from, float (&to)[3])
     std::transform(from.begin(), from.end(), to, [](double x) { return float(x); });
 }
 
+void evaluate_shadow(const LightShadow &shadow, const Pose &pose, const FrameValues &values, const ValueName &name,
+                     brume_plugin_light &out)
+{
+    if (shadow.kind == BRUME_SHADOW_NONE)
+        return;
+    const bool perspective = shadow.kind == BRUME_SHADOW_PERSPECTIVE;
+    const double extent = values.get(shadow.extent, perspective ? ranges::shadow_angle : ranges::positive, name.of(".shadow_extent"));
+    std::array<double, 16> to_world;
+    for (size_t i = 0; i < 16; ++i)
+        to_world[i] = values.get(shadow.to_world[i], ranges::any, name.of(".shadow_to_world"));
+    // Axis by axis of the map's camera. Positions are subtracted before anything is rounded: both may be far from the origin.
+    for (size_t axis = 0; axis < 3; ++axis) {
+        std::array<double, 3> along;
+        double from_map = 0;
+        for (size_t i = 0; i < 3; ++i) {
+            along[i] = to_world[4 * i + axis];
+            from_map += along[i] * (pose.position[i] - to_world[4 * i + 3] * pose.metres_per_unit);
+        }
+        const std::array<double, 3> seen = pose.rotated(along);
+        std::transform(seen.begin(), seen.end(), out.shadow_rows[axis], [](double x) { return float(x); });
+        out.shadow_rows[axis][3] = length_in_float(from_map);
+    }
+    out.shadow_kind = float(shadow.kind);
+    out.shadow_extent = perspective ? float(std::tan(0.5 * extent)) : length_in_float(0.5 * extent * pose.metres_per_unit);
+    out.shadow_depth = float(shadow.depth);
+}
+
 brume_plugin_light evaluate(const Light &light, const Pose &pose, const FrameValues &values, const ValueName &name)
 {
     brume_plugin_light out{};
     out.type = float(light.type);
     copy(values.get(light.intensity, ranges::not_negative, name.of(".intensity")), out.intensity);
+    evaluate_shadow(light.shadow, pose, values, name, out);
     if (light.type != BRUME_LIGHT_POINT)
         copy(pose.rotated(values.unit_vector(light.direction, name.of(".direction"))), out.direction);
     if (light.type == BRUME_LIGHT_DIRECTIONAL) {

@@ -1,10 +1,12 @@
 #include "core/scene_numbers.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/json_node.h"
+#include "core/scene_check.h"
 #include "core/scene_ranges.h"
 
 namespace brume {
@@ -79,6 +81,30 @@ Number3 read_rgb(const JsonNode &node, const Range &range)
         node.expected(range.describe() + ", [r, g, b], or {\"keys\": [[frame, value], ...]}");
     const Number grey = read_number(node, range);
     return {grey, grey, grey};
+}
+
+std::array<Number, 16> read_matrix(const JsonNode &node)
+{
+    const std::string what = "4 rows of 4 numbers";
+    std::array<Number, 16> matrix;
+    std::set<double> frames;
+    node.check_array_size(4, what);
+    for (size_t row = 0; row < 4; ++row) {
+        node.item(row).check_array_size(4, what);
+        for (size_t column = 0; column < 4; ++column) {
+            const Number &element = matrix[4 * row + column] = read_number(node.item(row).item(column), ranges::any);
+            for (const auto &key : element.keys)
+                frames.insert(key.first);
+        }
+    }
+    for (double frame : frames) {
+        std::array<double, 16> values;
+        std::transform(matrix.begin(), matrix.end(), values.begin(), [&](const Number &n) { return n.at(frame); });
+        if (const std::string defect = rigid_defect(values); !defect.empty())
+            node.fail(fmt::format("{}{}; expected a rigid motion: orthonormal columns, determinant 1, last row 0 0 0 1",
+                                  defect, frames.size() > 1 ? fmt::format(" at frame {}", frame) : ""));
+    }
+    return matrix;
 }
 
 Number in_radians(Number degrees)

@@ -12,6 +12,8 @@ Number3 read_vector(const JsonNode &node, const Range &range);
 Number3 read_direction(const JsonNode &node);
 // A scalar stands for three equal channels.
 Number3 read_rgb(const JsonNode &node, const Range &range);
+// A rigid motion.
+std::array<Number, 16> read_matrix(const JsonNode &node);
 Number in_radians(Number degrees);
 
 }  // namespace brume

@@ -150,8 +150,25 @@ Json lights()
         described(reference("fraction"), "Share of the half angle over which it falls off to nothing; .1 by default");
     const Json distance = described(reference("not_negative"),
                                     "That its light has come through the constant density; scene units; 0 by default");
+    auto shadow = [](const char *extent, const Json &schema) {
+        return described(
+            object_of({{"file", described({{"type", "string"}}, "Depth picture, relative to the scene file; one per frame with %04d "
+                                                                "or #### in its name")},
+                       {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
+                                                     "Of the camera that took it; row-major; rigid; looks down -z, +y up")},
+                       {extent, schema},
+                       {"depth", described({{"enum", {"planar", "ray"}}}, "planar by default; in scene units")}},
+                      {"file", "camera_to_world", extent}),
+            "Shadow map: the scene's depth as seen from the light");
+    };
+    const Json perspective = shadow("vertical_fov", described(reference("field_of_view"), "Of the map's height [degrees]")),
+               parallel = shadow("orthographic_width", described(number(ranges::positive), "Of the map; scene units"));
     const Json kinds = Json::array(
-        {object_of({{"type", type_of_point}, {"position", position}, {"intensity", radiant}, {"radius", radius}},
+        {object_of({{"type", type_of_point},
+                    {"position", position},
+                    {"intensity", radiant},
+                    {"radius", radius},
+                    {"shadow", perspective}},
                    {"type", "position", "intensity"}),
          object_of({{"type", type_of_spot},
                     {"position", position},
@@ -159,9 +176,14 @@ Json lights()
                     {"intensity", radiant},
                     {"radius", radius},
                     {"angle", angle},
-                    {"penumbra", penumbra}},
+                    {"penumbra", penumbra},
+                    {"shadow", perspective}},
                    {"type", "position", "direction", "intensity"}),
-         object_of({{"type", type_of_sun}, {"direction", direction}, {"intensity", irradiance}, {"distance", distance}},
+         object_of({{"type", type_of_sun},
+                    {"direction", direction},
+                    {"intensity", irradiance},
+                    {"distance", distance},
+                    {"shadow", parallel}},
                    {"type", "direction", "intensity"})});
     return {{"type", "array"}, {"maxItems", BRUME_MAX_LIGHTS}, {"items", {{"oneOf", kinds}}}};
 }

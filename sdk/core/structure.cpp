@@ -30,6 +30,8 @@ Structure::Structure(const Scene &scene, const Format &format)
     add("depth kind", format.depth_kind);
     add("a display window apart from the image", format.display_width != 0);
     add("lights", !scene.lights.empty());
+    add("lights with a shadow map", std::any_of(scene.lights.begin(), scene.lights.end(),
+                                                [](const Light &light) { return light.shadow.kind != BRUME_SHADOW_NONE; }));
     add("environment coefficients", double(scene.environment.coefficients.size()));
     add("medium", scene.medium.has_value());
     if (!scene.medium)

@@ -1,6 +1,6 @@
 // Airlight: what lights scatter once toward the camera (Sun et al. 2005 sec. 3, Zhou et al. 2007 sec. 3),
 //   L = int_0^D C_s (rho_0 + sum_i colour_i rho_i) p(mu) I / d^2 e^(-C_t (P(v,x) + P(x,s))) dt.
-// What its tiers share. Needs shadow.glsl, phase.glsl.
+// What its tiers share. Needs shadow.glsl, shadow_map.glsl, phase.glsl.
 
 const int airlight_sun = 0;
 const int airlight_fogshop = 1;
@@ -23,6 +23,7 @@ struct AirlightSettings {
     float culled;          // share of the airlight that may be missing by what the lists leave out
     int orders;
     vec4 ground;           // camera space, as height_above() has it
+    ivec4 shadowed;        // 1 + the light that map shadow_0 to shadow_3 is of; 0: there is none
 };
 
 struct Airlight {
@@ -40,8 +41,9 @@ struct Sight {
 
 // blob_density: texel i (1 + light_count) + k is int rho dt between origin k (shadow.glsl) and the centre of Gaussian i, without
 // its own (airlight_fogshop.glsl). sun_table: airlight_sun.glsl.
-#define AIRLIGHT_IMAGES SHADOW_IMAGES, sampler2D lights, sampler2D tile_gaussians, sampler2D blob_density, sampler2D sun_table
-#define AIRLIGHT_PASSED SHADOW_PASSED, lights, tile_gaussians, blob_density, sun_table
+#define AIRLIGHT_IMAGES SHADOW_IMAGES, sampler2D lights, sampler2D tile_gaussians, sampler2D blob_density, sampler2D sun_table, \
+                        SHADOW_MAP_IMAGES
+#define AIRLIGHT_PASSED SHADOW_PASSED, lights, tile_gaussians, blob_density, sun_table, SHADOW_MAP_PASSED
 
 // Bounds what a light of no size does at its own place.
 const float smallest_light = R(1e-6);       // [m]

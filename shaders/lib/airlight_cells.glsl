@@ -146,13 +146,16 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         for (int l = first_light; l < last_light; ++l) {
             Light light = light_at(lights, l);
             Aspect aspect = aspect_of(light, sight.direction);
+            ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadow_slot(settings.shadowed, l), l, sight.direction, end);
             vec3 before = vec3(R(0.0));
             vec3 last = vec3(R(0.0));
             for (int j = 0; j < steps; ++j) {
                 float t = moment[j];
                 vec3 f = vec3(R(0.0));
                 float strength = lit_strength(medium, light, aspect, sight.direction, t);
-                if (strength > R(0.0) || (settings.orders == orders_all && light.type == light_spot)) {
+                if (strength > R(0.0) && ray.slot >= 0)
+                    strength *= lit_share(SHADOW_MAP_PASSED, ray, edge[j], edge[j + 1]);
+                if (strength > R(0.0) || (settings.orders == orders_all && (light.type == light_spot || ray.slot >= 0))) {
                     vec3 point = t * sight.direction;
                     float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
                     f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));

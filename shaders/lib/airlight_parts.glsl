@@ -258,53 +258,71 @@ PURE vec2 lit_piece(IN(Light) light, vec3 direction, float distance, int piece)
     return piece == 0 ? vec2(outer.x, inner.x) : piece == 1 ? inner : vec2(inner.y, outer.y);
 }
 
-// Each term and Gaussian by itself, panel by panel, halving those whose error is too large for the whole.
+// Adds what one light sends from a part of the ray that no map has in shadow: each term and Gaussian by itself, panel by panel,
+// halving those whose error is too large for the whole.
+PURE Airlight light_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES,
+                             sampler2D tile_gaussians, IN(Sight) sight, int index, IN(Light) light, IN(Aspect) aspect, bool has_terms,
+                             vec3 terms, vec2 within, Airlight total)
+{
+    for (int piece = 0; piece < (light.type == light_spot ? 3 : 1); ++piece) {
+        vec2 lit = lit_piece(light, sight.direction, min(sight.distance, quadrature_limit), piece);
+        lit = vec2(max(lit.x, within.x), min(lit.y, within.y));
+        if (lit.x >= lit.y)
+            continue;
+        for (int part = has_terms ? part_terms : 0; part < sight.count; ++part) {
+            vec2 range;
+            float middle = R(0.0);
+            float radius = R(0.0);
+            if (part == part_terms) {
+                range = vec2(max(lit.x, terms.x), min(lit.y, terms.y));
+            } else {
+                Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, part);
+                middle = sight_profile(medium, camera, g, sight.direction).middle;
+                radius = R(1.0) / g.scale;
+                range = vec2(max(lit.x, middle - R(4.0) * radius), min(lit.y, middle + R(4.0) * radius));
+            }
+            if (range.x >= range.y)
+                continue;
+            Path path = part == part_terms ? terms_path(medium, light, aspect, range, terms.z)
+                                           : blob_path(light, aspect, middle, radius, range, settings.near_radii);
+            int left = settings.panels;
+            float z = R(0.0);
+            float dz = path.crowded == 1 ? R(0.5) : R(1.0);
+            while (z < R(1.0)) {
+                Panel panel = panel_of(medium, camera, SHADOW_PASSED, tile_gaussians, sight, index, light, aspect, part, path, z, dz);
+                --left;
+                vec3 so_far = total.radiance + panel.sum;
+                if (panel.doubt > settings.tolerance * (so_far.x + so_far.y + so_far.z) / R(3.0) && left > 0) {
+                    dz *= R(0.5);
+                    continue;
+                }
+                total.radiance += panel.sum;
+                total.error += vec3(panel.error);
+                z += dz;
+                dz = left > 1 ? min(R(2.0) * dz, R(1.0) - z) : R(1.0) - z;
+            }
+        }
+    }
+    return total;
+}
+
 PURE Airlight airlight_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_IMAGES,
                                 IN(Sight) sight, int first_light, int last_light)
 {
     Airlight total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
     bool has_terms = medium.constant > R(0.0) || medium.term_count > 0;
     vec3 terms = has_terms ? terms_range(medium, sight) : vec3(R(0.0));
+    float end = min(sight.distance, quadrature_limit);
+    float reach = sight.count > 0 ? end : terms.y;
     for (int l = first_light; l < last_light; ++l) {
         Light light = light_at(lights, l);
         Aspect aspect = aspect_of(light, sight.direction);
-        for (int piece = 0; piece < (light.type == light_spot ? 3 : 1); ++piece) {
-            vec2 lit = lit_piece(light, sight.direction, min(sight.distance, quadrature_limit), piece);
-            if (lit.x >= lit.y)
-                continue;
-            for (int part = has_terms ? part_terms : 0; part < sight.count; ++part) {
-                vec2 range;
-                float middle = R(0.0);
-                float radius = R(0.0);
-                if (part == part_terms) {
-                    range = vec2(max(lit.x, terms.x), min(lit.y, terms.y));
-                } else {
-                    Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, part);
-                    middle = sight_profile(medium, camera, g, sight.direction).middle;
-                    radius = R(1.0) / g.scale;
-                    range = vec2(max(lit.x, middle - R(4.0) * radius), min(lit.y, middle + R(4.0) * radius));
-                }
-                if (range.x >= range.y)
-                    continue;
-                Path path = part == part_terms ? terms_path(medium, light, aspect, range, terms.z)
-                                               : blob_path(light, aspect, middle, radius, range, settings.near_radii);
-                int left = settings.panels;
-                float z = R(0.0);
-                float dz = path.crowded == 1 ? R(0.5) : R(1.0);
-                while (z < R(1.0)) {
-                    Panel panel = panel_of(medium, camera, SHADOW_PASSED, tile_gaussians, sight, l, light, aspect, part, path, z, dz);
-                    --left;
-                    vec3 so_far = total.radiance + panel.sum;
-                    if (panel.doubt > settings.tolerance * (so_far.x + so_far.y + so_far.z) / R(3.0) && left > 0) {
-                        dz *= R(0.5);
-                        continue;
-                    }
-                    total.radiance += panel.sum;
-                    total.error += vec3(panel.error);
-                    z += dz;
-                    dz = left > 1 ? min(R(2.0) * dz, R(1.0) - z) : R(1.0) - z;
-                }
-            }
+        ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadow_slot(settings.shadowed, l), l, sight.direction, reach);
+        LitWalk walk = next_lit(SHADOW_MAP_PASSED, ray, lit_walk(R(0.0)), end);
+        while (walk.part.x < walk.part.y) {
+            total = light_by_parts(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, l, light, aspect, has_terms, terms,
+                                   walk.part, total);
+            walk = next_lit(SHADOW_MAP_PASSED, ray, walk, end);
         }
     }
     return total;

@@ -11,6 +11,7 @@
 #include "phase.glsl"
 #include "light.glsl"
 #include "shadow.glsl"
+#include "shadow_map.glsl"
 #include "airlight.glsl"
 #include "airlight_sun.glsl"
 #include "airlight_fogshop.glsl"

@@ -1,4 +1,4 @@
-// TIER is set by the plan.
+// TIER and SHADOWED, whether some light may have a map, are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"
@@ -12,6 +12,7 @@
 #include "phase.glsl"
 #include "light.glsl"
 #include "shadow.glsl"
+#include "shadow_map.glsl"
 #include "airlight.glsl"
 #include "airlight_sun.glsl"
 #include "airlight_fogshop.glsl"
@@ -42,6 +43,11 @@ uniform sampler2D blob_density;
 uniform sampler2D sun_table;
 uniform sampler2D environment;
 uniform sampler2D environment_table;
+uniform sampler2D light_shadows;
+uniform sampler2D shadow_0;
+uniform sampler2D shadow_1;
+uniform sampler2D shadow_2;
+uniform sampler2D shadow_3;
 writeonly uniform image2D radiance;
 writeonly uniform image2D error;
 writeonly uniform image2D distances;
@@ -52,7 +58,10 @@ void main()
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
     ivec2 pixel = representative(p, reduction, size);
-    Airlight a = airlight_at(TIER, brume_medium, brume_camera, airlight, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
+    AirlightSettings settings = airlight;
+    if (SHADOWED == 0)
+        settings.shadowed = ivec4(0);
+    Airlight a = airlight_at(TIER, brume_medium, brume_camera, settings, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
     imageStore(radiance, p, vec4(a.radiance, 1.0));
     imageStore(error, p, vec4(a.error, 1.0));
     Ray ray = pixel_ray(brume_camera, vec2(pixel) + 0.5, texelFetch(depth, pixel, 0).r);

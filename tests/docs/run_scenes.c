@@ -23,6 +23,8 @@ static int run(brume_context context, const char *file)
     brume_camera camera = BRUME_CAMERA_INIT;
     brume_image color_image = BRUME_IMAGE_INIT, depth_image, output_image;
     brume_frame frame = BRUME_FRAME_INIT;
+    brume_layer shadow = BRUME_LAYER_INIT, shadows[8];
+    brume_scene_info info = BRUME_SCENE_INFO_INIT;
     brume_scene scene;
     brume_plan plan;
     brume_status status;
@@ -37,6 +39,15 @@ static int run(brume_context context, const char *file)
         color[i] = 1, depth[i / 4] = 20;
     if (brume_scene_create_from_text(context, text, length, file, &scene) != BRUME_OK)
         return fail(context, file);
+    /* Lights that name a shadow map get the picture's depth for it. */
+    brume_scene_get_info(scene, &info);
+    shadow.name = "shadow";
+    shadow.image = &depth_image;
+    for (shadow.light = 0; shadow.light < info.light_count && frame.input_count < 8; ++shadow.light)
+        if (brume_scene_light_shadow_file(scene, shadow.light, NULL, 0) > 1)
+            shadows[frame.input_count++] = shadow;
+    format.inputs = frame.inputs = shadows;
+    format.input_count = frame.input_count ? 1 : 0;
     format.width = color_image.width = width;
     format.height = color_image.height = height;
     status = brume_plan_create(scene, &format, &plan);

@@ -1,5 +1,6 @@
 #pragma once
 // One ray of a case through the tiers, as the CPU backend runs them, and through the reference.
+#include <array>
 #include <numbers>
 #include <vector>
 
@@ -48,6 +49,8 @@ public:
         camera_.right = {1, 0, 0};
         camera_.up = {0, 1, 0};
         camera_.back = {0, 0, 1};
+        camera_.metres_per_unit = 1;
+        camera_.tangent_scale = {1, -1};
         settings.light_count = int(c.lights.size());
         settings.gaussian_count = n;
         brume::airlight::set_quality(settings, max_error);
@@ -56,8 +59,19 @@ public:
     // The ray's list holds these only; shadows are still of all.
     void see_only(const std::vector<int> &gaussians) { seen_.assign(gaussians.begin(), gaussians.end()); }
 
+    // A map of this light, and where it looks: as brume_plugin_light from shadow_rows on.
+    void add_shadow(int light, const std::array<float, 16> &projection, narrow::Texture map)
+    {
+        light_shadows_.resize(16 * case_.lights.size());
+        std::copy(projection.begin(), projection.end(), light_shadows_.begin() + 16 * light);
+        settings.shadowed[maps_] = light + 1;
+        map_[maps_++] = map;
+    }
+
     narrow::Airlight airlight(int tier)
     {
+        const narrow::Texture light_shadows = image(light_shadows_, 4), &shadow_0 = map_[0], &shadow_1 = map_[1], &shadow_2 = map_[2],
+                              &shadow_3 = map_[3];
         const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4), cell_gaussians = image(indices_, 1),
                               shadow_origins = image(origins_, 4), lights = image(lights_, 4), tile_gaussians = image(seen_, 1);
         if (tier == narrow::airlight_fogshop && blob_density_.empty())
@@ -101,7 +115,9 @@ private:
     const Case &case_;
     narrow::Medium medium_;
     narrow::Camera camera_{};
-    std::vector<float> gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_;
+    narrow::Texture map_[4];
+    int maps_ = 0;
+    std::vector<float> light_shadows_, gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_;
 };
 
 // Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send less

@@ -220,6 +220,11 @@ public:
         return detail::copied_text(
             [&](char *to, std::size_t size) { return brume_scene_environment_file(get(), to, size); });
     }
+    std::string light_shadow_file(std::uint32_t light) const
+    {
+        return detail::copied_text(
+            [&](char *to, std::size_t size) { return brume_scene_light_shadow_file(get(), light, to, size); });
+    }
     brume_scene_info info() const
     {
         brume_scene_info info = BRUME_SCENE_INFO_INIT;

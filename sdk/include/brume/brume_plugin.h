@@ -100,6 +100,13 @@ typedef struct brume_plugin_light {
   float type;         /* BRUME_LIGHT_... */
   float distance;     /* DIRECTIONAL: [m] of the constant terms that its light has come through */
   float reserved[2];
+
+  /* Its shadow map (brume_light.shadow_kind): these 16 floats are four texels of product "light_shadows". */
+  float shadow_rows[3][4]; /* a point of camera space [m], 1 appended, times these is it in the space of the map's camera */
+  float shadow_kind;       /* BRUME_SHADOW_... */
+  float shadow_extent;     /* PERSPECTIVE: tangent of half the vertical field of view; ORTHOGRAPHIC: half the width [m] */
+  float shadow_depth;      /* BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY, in scene units */
+  float shadow_reserved;
 } brume_plugin_light;
 
 typedef struct brume_plugin_scene {
@@ -147,6 +154,8 @@ typedef struct brume_plugin_layer {
                      by row: x the first and y the number of its entries in [2]. [2] data, one channel: indices of the
                      Gaussians that matter in the tile, by distance. count: of Gaussians
    lights            data: 4 texels each, as brume_plugin_light. count: of lights
+   light_shadows     data: 4 texels each, as brume_plugin_light from shadow_rows on; only where some light has a shadow map.
+                     count: of lights
    visible_lights    data: 1 texel each, center and radius, of the lights that have a radius and so can be seen. count: of them
 
    Beside these, effects make what they name in `makes`. Names without images say what a picture holds: attenuated_radiance (it

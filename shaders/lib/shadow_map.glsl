@@ -1,0 +1,257 @@
+// Shadows of solid things: depth pictures from lights ("shadow maps"), and which parts of a ray they let a light shine on.
+// Needs data.glsl, ray.glsl. Of four lights at most; settings say which has which map.
+//
+//   light_shadows  4 texels per light, as brume_plugin_light from shadow_rows on
+//   shadow_0 ...   the maps: distance from the map's camera in scene units, NaN, infinite or <= 0 where nothing is
+
+#define SHADOW_MAP_IMAGES sampler2D light_shadows, sampler2D shadow_0, sampler2D shadow_1, sampler2D shadow_2, sampler2D shadow_3
+#define SHADOW_MAP_PASSED light_shadows, shadow_0, shadow_1, shadow_2, shadow_3
+
+const int shadow_perspective = 1;
+
+// A thing begins to shadow one texel's width behind its depth in the map, as wide as the texel is there: as far as a surface that
+// faces the light by half may be off its texel's centre.
+const float shadow_bias = R(1.0);
+
+// Depths of neighbours that differ by less, in texels' widths, are of one surface: what is between them is interpolated.
+const float shadow_slope = R(4.0);
+
+const int shadow_steps = 1024;  // along a ray at most; else one for each texel that it crosses
+const int shadow_halvings = 40;   // at most, of a step in which a shadow begins or ends
+
+// A ray of the camera on a light's map.
+struct ShadowRay {
+    int slot;          // of the map; < 0: the light has none
+    int kind;
+    int along_ray;     // 1: the map has distances along its rays
+    ivec2 size;
+    vec3 from;         // where the ray begins, in the space of the map's camera [m]
+    vec3 direction;
+    vec2 scale;        // texels per tangent, orthographic: per metre; y as the image's rows run
+    float texel;       // a texel's width at distance 1, orthographic: anywhere
+    float unit;        // metres per unit of depth
+    vec2 seen;         // the part of the ray that the map sees: beyond, all is lit
+    int steps;
+};
+
+PURE float shadow_texel(SHADOW_MAP_IMAGES, int slot, ivec2 texel)
+{
+    if (slot == 0)
+        return texelFetch(shadow_0, texel, 0).x;
+    if (slot == 1)
+        return texelFetch(shadow_1, texel, 0).x;
+    if (slot == 2)
+        return texelFetch(shadow_2, texel, 0).x;
+    return texelFetch(shadow_3, texel, 0).x;
+}
+
+PURE ivec2 shadow_size(SHADOW_MAP_IMAGES, int slot)
+{
+    if (slot == 0)
+        return textureSize(shadow_0, 0);
+    if (slot == 1)
+        return textureSize(shadow_1, 0);
+    if (slot == 2)
+        return textureSize(shadow_2, 0);
+    return textureSize(shadow_3, 0);
+}
+
+// Which map a light has; shadowed: of the settings.
+PURE int shadow_slot(ivec4 shadowed, int light)
+{
+    int of = light + 1;
+    return shadowed.x == of ? 0 : shadowed.y == of ? 1 : shadowed.z == of ? 2 : shadowed.w == of ? 3 : -1;
+}
+
+// What of the range has at + t by >= 0.
+PURE vec2 range_above(vec2 range, float at, float by)
+{
+    if (abs(by) < R(1e-20))
+        return at >= R(0.0) ? range : vec2(range.x, range.x - R(1.0));
+    float t = -at / by;
+    return by > R(0.0) ? vec2(max(range.x, t), range.y) : vec2(range.x, min(range.y, t));
+}
+
+PURE vec3 shadow_place(IN(ShadowRay) ray, float t)
+{
+    return ray.from + t * ray.direction;
+}
+
+// Position in the map, texel centres at half-integers.
+PURE vec2 shadow_position(IN(ShadowRay) ray, vec3 place)
+{
+    float away = ray.kind == shadow_perspective ? max(-place.z, R(1e-20)) : R(1.0);
+    vec2 size = vec2(float(ray.size.x), float(ray.size.y));
+    return clamp(R(0.5) * size + ray.scale * vec2(place.x / away, place.y / away), vec2(R(0.0)), size);
+}
+
+// Where the ray is step `step` of `steps`: even in the map.
+PURE float shadow_step(IN(ShadowRay) ray, int step)
+{
+    float s = float(step) / float(ray.steps);
+    if (ray.kind == shadow_perspective) {
+        float first = -shadow_place(ray, ray.seen.x).z;
+        float last = -shadow_place(ray, ray.seen.y).z;
+        s = s * first / max((R(1.0) - s) * last + s * first, R(1e-30));
+    }
+    return step >= ray.steps ? ray.seen.y : mix(ray.seen.x, ray.seen.y, s);
+}
+
+// The part [from, to] of a ray.
+PURE ShadowRay shadow_section(ShadowRay ray, float from, float to)
+{
+    ray.seen = vec2(max(ray.seen.x, from), min(ray.seen.y, to));
+    vec2 way = shadow_position(ray, shadow_place(ray, ray.seen.y)) - shadow_position(ray, shadow_place(ray, ray.seen.x));
+    ray.steps = clamp(int(max(abs(way.x), abs(way.y))) + 1, 1, shadow_steps);
+    return ray;
+}
+
+PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int slot, int light, vec3 direction, float distance)
+{
+    ShadowRay ray;
+    ray.slot = slot;
+    ray.kind = 0;
+    ray.along_ray = 0;
+    ray.size = ivec2(1, 1);
+    ray.from = vec3(R(0.0));
+    ray.direction = direction;
+    ray.scale = vec2(R(1.0));
+    ray.texel = R(0.0);
+    ray.unit = camera.metres_per_unit;
+    ray.seen = vec2(R(0.0), distance);
+    ray.steps = 1;
+    if (slot < 0)
+        return ray;
+    vec4 x = data_texel(light_shadows, 4 * light);
+    vec4 y = data_texel(light_shadows, 4 * light + 1);
+    vec4 z = data_texel(light_shadows, 4 * light + 2);
+    vec4 extent = data_texel(light_shadows, 4 * light + 3);
+    ray.kind = int(extent.x);
+    ray.along_ray = int(extent.z);
+    ray.size = shadow_size(SHADOW_MAP_PASSED, slot);
+    ray.from = vec3(x.w, y.w, z.w);
+    ray.direction = vec3(dot(vec3(x.x, x.y, x.z), direction), dot(vec3(y.x, y.y, y.z), direction), dot(vec3(z.x, z.y, z.z), direction));
+    bool perspective = ray.kind == shadow_perspective;
+    float width = float(ray.size.x);
+    float height = float(ray.size.y);
+    float half_width = perspective ? extent.y * (width / height) : extent.y;
+    float half_height = perspective ? extent.y : extent.y * (height / width);
+    ray.texel = R(2.0) * half_width / width;
+    // The rows of all images run alike.
+    ray.scale = vec2(R(0.5) * width / half_width, (camera.tangent_scale.y > R(0.0) ? R(0.5) : -R(0.5)) * height / half_height);
+
+    vec3 from = ray.from;
+    vec3 by = ray.direction;
+    float away = perspective ? -from.z : R(1.0);
+    float away_by = perspective ? -by.z : R(0.0);
+    vec2 seen = range_above(vec2(R(0.0), distance), -from.z, -by.z);
+    seen = range_above(seen, half_width * away + from.x, half_width * away_by + by.x);
+    seen = range_above(seen, half_width * away - from.x, half_width * away_by - by.x);
+    seen = range_above(seen, half_height * away + from.y, half_height * away_by + by.y);
+    seen = range_above(seen, half_height * away - from.y, half_height * away_by - by.y);
+    ray.seen = seen;
+    ray = shadow_section(ray, R(0.0), distance);
+    if (!(seen.x < seen.y))
+        ray.slot = -1;
+    return ray;
+}
+
+// Depth that the map has there [m]; far_away where nothing is.
+PURE float shadow_depth_at(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, int x, int y)
+{
+    float depth = shadow_texel(SHADOW_MAP_PASSED, ray.slot, ivec2(clamp(x, 0, ray.size.x - 1), clamp(y, 0, ray.size.y - 1)));
+    return is_finite(depth) && depth > R(0.0) ? min(depth * ray.unit, far_away) : far_away;
+}
+
+// Whether the light reaches the ray at t.
+PURE bool is_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, float t)
+{
+    if (t < ray.seen.x || t > ray.seen.y)
+        return true;
+    vec3 place = shadow_place(ray, t);
+    vec2 position = shadow_position(ray, place);
+    float there = ray.kind == shadow_perspective && ray.along_ray == 1 ? length(place) : -place.z;
+    float depth = shadow_depth_at(SHADOW_MAP_PASSED, ray, int(position.x), int(position.y));
+    float width = ray.kind == shadow_perspective ? ray.texel * depth : ray.texel;
+    // What the neighbours say could not change it.
+    if (abs(there - depth) > (shadow_slope + shadow_bias) * width)
+        return there <= depth;
+    int x = int(floor(position.x - R(0.5)));
+    int y = int(floor(position.y - R(0.5)));
+    float a = shadow_depth_at(SHADOW_MAP_PASSED, ray, x, y);
+    float b = shadow_depth_at(SHADOW_MAP_PASSED, ray, x + 1, y);
+    float c = shadow_depth_at(SHADOW_MAP_PASSED, ray, x, y + 1);
+    float d = shadow_depth_at(SHADOW_MAP_PASSED, ray, x + 1, y + 1);
+    if (max(max(a, b), max(c, d)) - min(min(a, b), min(c, d)) < shadow_slope * width) {
+        float u = position.x - R(0.5) - float(x);
+        depth = mix(mix(a, b, u), mix(c, d, u), position.y - R(0.5) - float(y));
+    }
+    return there <= depth + shadow_bias * width;
+}
+
+// The lit parts up to `end` one after another: begin with lit_walk(), then next_lit() gives one each time, empty after the last.
+struct LitWalk {
+    int step;   // -1 stands for the ray's begin, steps + 1 for its end
+    float at;
+    bool lit;   // there
+    vec2 part;
+};
+
+PURE LitWalk lit_walk(float from)
+{
+    return LitWalk(-1, from, true, vec2(from));
+}
+
+PURE LitWalk next_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, LitWalk walk, float end)
+{
+    float begin = walk.at;
+    if (ray.slot < 0) {
+        walk.part = vec2(begin, end);
+        walk.at = end;
+        return walk;
+    }
+    while (walk.step <= ray.steps) {
+        float low = walk.at;
+        walk.step += 1;
+        bool outside = walk.step > ray.steps;
+        float high = outside ? ray.seen.y : shadow_step(ray, walk.step);
+        bool now = outside || is_lit(SHADOW_MAP_PASSED, ray, high);
+        walk.at = high;
+        if (now == walk.lit)
+            continue;
+        if (outside || walk.step == 0)
+            low = high;
+        for (int i = 0; i < shadow_halvings && high - low > R(1e-5) * high; ++i) {
+            float middle = R(0.5) * (low + high);
+            if (is_lit(SHADOW_MAP_PASSED, ray, middle) == walk.lit)
+                low = middle;
+            else
+                high = middle;
+        }
+        walk.lit = now;
+        if (now) {
+            begin = high;
+        } else if (begin < low) {
+            walk.part = vec2(begin, low);
+            return walk;
+        }
+    }
+    walk.part = walk.lit ? vec2(begin, end) : vec2(end);
+    walk.lit = false;
+    return walk;
+}
+
+// How much of [from, to] is lit: a share of 1.
+PURE float lit_share(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, float from, float to)
+{
+    ShadowRay section = shadow_section(ray, from, to);
+    if (!(section.seen.x < section.seen.y))
+        return R(1.0);
+    float lit = R(0.0);
+    LitWalk walk = next_lit(SHADOW_MAP_PASSED, section, lit_walk(from), to);
+    while (walk.part.x < walk.part.y) {
+        lit += walk.part.y - walk.part.x;
+        walk = next_lit(SHADOW_MAP_PASSED, section, walk, to);
+    }
+    return min(lit / max(to - from, R(1e-20)), R(1.0));
+}
