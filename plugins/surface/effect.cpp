@@ -111,10 +111,11 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
     if (!followed)
-        if (brume_status s = entry(false, "gaussians",
-                                   std::to_string(scene_.gaussian_count) + " Gaussians; between lights and surfaces at most " +
-                                       std::to_string(most_gaussians) + " are followed",
-                                   0, 0))
+        if (brume_status s =
+                entry(false, "gaussians",
+                      std::to_string(scene_.gaussian_count) + " Gaussians; between lights and surfaces at most " +
+                          std::to_string(most_gaussians) + " are followed",
+                      0, 0))
             return s;
     if (brume_status s = entry(true, "compose", "what lights give surfaces through the medium", pixels * (16 + 4 + 16 + 16),
                                pixels * (40 + (state_->rest[0] ? 0 : lights * of_light))))

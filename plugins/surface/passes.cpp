@@ -17,8 +17,9 @@ using namespace brume_passes;
 constexpr brume_slot normals_slots[] = {fetch("depth"), write("normals")};
 static_assert(std::size(normals_slots) == normals::slot_count);
 
-constexpr brume_slot group_slots[] = {fetch("rest"),   fetch("lit"),       fetch("group"),    fetch("depth"),  fetch("normals"),
-                                      fetch("lights"), fetch("gaussians"), write("rest_out"), write("lit_out")};
+constexpr brume_slot group_slots[] = {fetch("rest"),      fetch("lit"),      fetch("group"),
+                                      fetch("depth"),     fetch("normals"),  fetch("lights"),
+                                      fetch("gaussians"), write("rest_out"), write("lit_out")};
 static_assert(std::size(group_slots) == group::slot_count);
 
 constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),   fetch("lit"),        fetch("depth"),
@@ -30,20 +31,21 @@ constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, setti
                                               BRUME_CONSTANT_OF(Constants, settings, gaussian_count),
                                               BRUME_CONSTANT_OF(Constants, settings, environment_order),
                                               BRUME_CONSTANT_OF(Constants, settings, world_normals),
-                                              BRUME_CONSTANT(Constants, light), BRUME_CONSTANT(Constants, first)};
+                                              BRUME_CONSTANT(Constants, light),
+                                              BRUME_CONSTANT(Constants, first)};
 
 template <size_t Slots>
 brume_status create_pass(const brume_services &services, brume_host host, const char *name, const brume_slot (&slots)[Slots],
                          brume_rows_function rows, brume_pass &out)
 {
     const std::string file = "surface_" + std::string(name) + ".comp";
-    return create(services, host, described(name, slots, constants_table, sizeof(Constants)), file.c_str(), pass_text(file), "",
-                  rows, out);
+    return create(services, host, described(name, slots, constants_table, sizeof(Constants)), file.c_str(), pass_text(file),
+                  "", rows, out);
 }
 
 // The data image in `out` has these values from now on.
-brume_status refresh(const brume_services &services, brume_host host, Upload slot, int32_t channels, std::vector<float> values,
-                     std::vector<float> &last, brume_plugin_image &out)
+brume_status refresh(const brume_services &services, brume_host host, Upload slot, int32_t channels,
+                     std::vector<float> values, std::vector<float> &last, brume_plugin_image &out)
 {
     if (values.empty() || (out && values == last))
         return BRUME_OK;
@@ -58,8 +60,8 @@ public:
     {
         constants_.settings.light_count = int32_t(scene_.light_count);
         constants_.settings.gaussian_count = scene_.gaussian_count <= most_gaussians ? int32_t(scene_.gaussian_count) : 0;
-        for (uint32_t n = scene_.environment_count; uint32_t(constants_.settings.environment_order *
-                                                             constants_.settings.environment_order) < n;)
+        for (uint32_t n = scene_.environment_count;
+             uint32_t(constants_.settings.environment_order * constants_.settings.environment_order) < n;)
             ++constants_.settings.environment_order;
         const brume_plugin_layer &normal = frame.layers[layer_normal];
         constants_.settings.world_normals = normal.image && normal.kind == BRUME_LAYER_WORLD;
@@ -105,8 +107,8 @@ brume_status Frame::upload()
     for (uint32_t i = 0; i < scene_.environment_count; ++i)
         environment.insert(environment.end(),
                            {scene_.environment[i][0], scene_.environment[i][1], scene_.environment[i][2], 0.0f});
-    if (brume_status s = refresh(services_, host_, upload_ungrouped, 1, std::move(ungrouped), state_.ungrouped_values,
-                                 state_.ungrouped))
+    if (brume_status s =
+            refresh(services_, host_, upload_ungrouped, 1, std::move(ungrouped), state_.ungrouped_values, state_.ungrouped))
         return s;
     return refresh(services_, host_, upload_environment, 4, std::move(environment), state_.environment_values,
                    state_.environment);

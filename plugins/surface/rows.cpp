@@ -25,8 +25,7 @@ brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t 
     auto ray_at = [&](int x, int y) {
         const int u = clamp(x, 0, call->width - 1), v = clamp(y, 0, call->height - 1);
         // Beyond the border there is no neighbour: the one on the other side counts.
-        const float raw =
-            u == x && v == y ? *at(slots[normals::depth], x, y) : std::numeric_limits<float>::infinity();
+        const float raw = u == x && v == y ? *at(slots[normals::depth], x, y) : std::numeric_limits<float>::infinity();
         return pixel_ray(camera, pixel_centre(u, v), raw);
     };
     return for_pixels(*call, first, last, [&](int x, int y) {
@@ -68,9 +67,9 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
         const vec4 source = load(slots[compose::color], x, y);
         const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[compose::depth], x, y),
                                            vec3(load(slots[compose::normals], x, y)));
-        const Divided divided =
-            constants.first ? Divided{vec3(source), vec3(0.0f)}
-                            : Divided{vec3(load(slots[compose::rest], x, y)), vec3(load(slots[compose::lit], x, y))};
+        const Divided divided = constants.first
+                                    ? Divided{vec3(source), vec3(0.0f)}
+                                    : Divided{vec3(load(slots[compose::rest], x, y)), vec3(load(slots[compose::lit], x, y))};
         const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, surface, vec3(source), divided,
                                  call->scene->output_limit);
         store(slots[compose::result], x, y, vec4(shown, source.w));

@@ -1,5 +1,5 @@
-// surface_calibration [--quick]: shaders/lib/surface.glsl against Monte Carlo: how far off is what a black plane receives of a lamp
-// through a medium, by the angle under which the lamp shines on it. Seeded; the same on every run.
+// surface_calibration [--quick]: shaders/lib/surface.glsl against Monte Carlo: how far off is what a black plane receives of
+// a lamp through a medium, by the angle under which the lamp shines on it. Seeded; the same on every run.
 #include <cstdio>
 #include <cstring>
 
@@ -31,7 +31,8 @@ int main(int argc, char **argv)
         fprintf(stderr, "surface_calibration: %s: expected --quick or nothing\n", argv[1]);
         return 2;
     }
-    printf("What a plane receives over what it does in clear air; lamp at s' h = .01 to 3, s' r up to 8, cosines from .1. Errors "
+    printf("What a plane receives over what it does in clear air; lamp at s' h = .01 to 3, s' r up to 8, cosines from .1. "
+           "Errors "
            "relative to the\n"
            "share plus .03. As if nothing changed, and as if what leaves the beam were lost: the same errors of 1 and of "
            "e^(-sigma_t r).\n"
@@ -51,15 +52,14 @@ int main(int argc, char **argv)
                     square += e * e;
                     worst = std::max(worst, std::abs(e));
                     nothing += std::pow((1 - rings[i].factor) / unit, 2);
-                    lost += std::pow(
-                        (std::exp(-((1 - absorption) / (1 - g) + absorption) * x) - rings[i].factor) / unit, 2);
+                    lost += std::pow((std::exp(-((1 - absorption) / (1 - g) + absorption) * x) - rings[i].factor) / unit, 2);
                     noise += std::pow(rings[i].deviation / unit, 2);
                     ++points;
                 }
             }
             auto rms = [&](double sum) { return std::sqrt(sum / points); };
-            printf("%5.2f %10.2f %7d %7.3f %7.3f %13.3f %10.3f %12.3f\n", g, absorption, points, rms(square), worst, rms(nothing),
-                   rms(lost), rms(noise));
+            printf("%5.2f %10.2f %7d %7.3f %7.3f %13.3f %10.3f %12.3f\n", g, absorption, points, rms(square), worst,
+                   rms(nothing), rms(lost), rms(noise));
             fflush(stdout);
         }
 }

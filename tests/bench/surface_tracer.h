@@ -61,7 +61,8 @@ inline std::vector<Ring> trace_onto_plane(double g, double absorption, double he
     }
     std::vector<Ring> out;
     for (size_t i = 0; i < rings; ++i) {
-        const double from = ring_edges[i + 1], to = ring_edges[i], clear = 2 * pi * (to - from), unit = 4 * pi / photons / clear;
+        const double from = ring_edges[i + 1], to = ring_edges[i], clear = 2 * pi * (to - from),
+                     unit = 4 * pi / photons / clear;
         double straight = 0;
         for (int k = 0; k < 32; ++k)
             straight += std::exp(-(scattering + absorption) * height / (from + (to - from) * (k + 0.5) / 32)) / 32;
