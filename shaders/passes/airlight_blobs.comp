@@ -16,6 +16,7 @@
 #include "airlight_sun.glsl"
 #include "airlight_fogshop.glsl"
 #include "airlight_parts.glsl"
+#include "lamp_field.glsl"
 #include "airlight_orders.glsl"
 #include "airlight_cells.glsl"
 #include "airlight_nodes.glsl"

@@ -1,4 +1,4 @@
-// lamp_calibration [--quick]: shaders/lib/airlight_orders.glsl against Monte Carlo: how far off are the fluence and the mean
+// lamp_calibration [--quick]: shaders/lib/lamp_field.glsl and airlight_orders.glsl against Monte Carlo: how far off are the fluence and the mean
 // cosine of a lamp's scattered light, the source that it makes toward a camera, and what a black plane leaves of it. Seeded;
 // the same on every run.
 #include <cstdio>

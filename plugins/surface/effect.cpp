@@ -1,0 +1,167 @@
+// surface: what lamps give the surfaces of a picture that was made in clear air, with the medium between them.
+#include <memory>
+#include <string>
+
+#include "state.h"
+
+namespace surface {
+namespace {
+
+constexpr brume_layer_info layer_table[] = {
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "normal", "where surfaces face; without it, as depth has it"},
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT, 3, 0, "light_group",
+     "what of the picture is one light's; without it, by what lights give in clear air without shadows"},
+    {sizeof(brume_layer_info), BRUME_LAYER_OUTPUT, 3, 0, "surface",
+     "the picture as the lights give it through the medium, before the medium in front of it"},
+};
+static_assert(std::size(layer_table) == layer_count);
+
+constexpr const char *used[] = {"lights", "gaussians", "density_rgb"};
+static_assert(std::size(used) == product_count);
+
+bool any(const float (&v)[3])
+{
+    return v[0] > 0 || v[1] > 0 || v[2] > 0;
+}
+
+class Planner {
+public:
+    Planner(const brume_services &services, brume_host host, const brume_plugin_request &request)
+        : services_(services), host_(host), request_(request), scene_(*request.scene), state_(std::make_unique<State>())
+    {
+        state_->width = request.width;
+        state_->height = request.height;
+    }
+
+    brume_status plan(std::unique_ptr<State> &out);
+
+private:
+    brume_status entry(bool runs, const char *name, const std::string &reason, double bytes, double operations)
+    {
+        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        return services_.add_entry(host_, &e);
+    }
+    brume_status image(const char *label, brume_plugin_image &out)
+    {
+        return services_.create_image(host_, label, state_->width, state_->height, 4, &out);
+    }
+    const char *why_not() const;
+    brume_status plan_normals(double pixels);
+    brume_status plan_groups(double pixels, double of_light);
+
+    const brume_services &services_;
+    brume_host host_;
+    const brume_plugin_request &request_;
+    const brume_plugin_scene &scene_;
+    std::unique_ptr<State> state_;
+};
+
+// NULL: it runs.
+const char *Planner::why_not() const
+{
+    if (!scene_.has_medium)
+        return "the scene has no medium";
+    const auto &m = *scene_.medium;
+    if (services_.made(host_, "density_rgb") == BRUME_MADE_EARLIER)
+        return "the density is a layer's total along each ray, which does not say what is between lights and surfaces";
+    if (!(m.constant > 0 || m.term_count > 0 || scene_.gaussian_count > 0))
+        return "the medium's density is zero everywhere";
+    if (!any(m.scattering) && !any(m.absorption))
+        return "the medium neither scatters nor absorbs";
+    if (scene_.light_count == 0)
+        return "no lights";
+    return nullptr;
+}
+
+brume_status Planner::plan_normals(double pixels)
+{
+    if (request_.layers[layer_normal])
+        return BRUME_OK;
+    if (brume_status s = image("surface normals", state_->normals))
+        return s;
+    return entry(true, "normals", "no layer normal: from depth", pixels * (4 + 16), pixels * 80);
+}
+
+brume_status Planner::plan_groups(double pixels, double of_light)
+{
+    if (!request_.layers[layer_light_group])
+        return entry(false, "group", "no layer light_group: shares by what lights give without shadows", 0, 0);
+    for (int i = 0; i < 2; ++i) {
+        if (brume_status s = image("surface rest", state_->rest[i]))
+            return s;
+        if (brume_status s = image("surface lit", state_->lit[i]))
+            return s;
+    }
+    return entry(true, "group", "each light's own layer", scene_.light_count * pixels * (5 * 16 + 4 + 16),
+                 scene_.light_count * pixels * of_light);
+}
+
+brume_status Planner::plan(std::unique_ptr<State> &out)
+{
+    if (const char *reason = why_not())
+        return entry(false, "surface", reason, 0, 0);
+    if (brume_status s = services_.need_camera(host_, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
+                                               "the lights are placed in the world"))
+        return s;
+    const double pixels = double(state_->width) * state_->height, lights = scene_.light_count;
+    const bool followed = scene_.gaussian_count <= most_gaussians;
+    const double of_light = 200 + 30.0 * scene_.medium->term_count + (followed ? 20.0 * scene_.gaussian_count : 0);
+    if (brume_status s = plan_normals(pixels))
+        return s;
+    if (brume_status s = plan_groups(pixels, of_light))
+        return s;
+    if (!followed)
+        if (brume_status s =
+                entry(false, "gaussians",
+                      std::to_string(scene_.gaussian_count) + " Gaussians; between lights and surfaces at most " +
+                          std::to_string(most_gaussians) + " are followed",
+                      0, 0))
+            return s;
+    if (brume_status s = entry(true, "compose", "what lights give surfaces through the medium", pixels * (16 + 4 + 16 + 16),
+                               pixels * (40 + (state_->rest[0] ? 0 : lights * of_light))))
+        return s;
+    if (brume_status s = create_passes(services_, host_, *state_))
+        return s;
+    out = std::move(state_);
+    return BRUME_OK;
+}
+
+brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *request, void **out)
+{
+    std::unique_ptr<State> state;
+    const brume_status s = Planner(*services, host, *request).plan(state);
+    *out = state.release();
+    return s;
+}
+
+brume_status execute(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame)
+{
+    return run_passes(*services, host, *frame, *static_cast<State *>(state));
+}
+
+}  // namespace
+}  // namespace surface
+
+BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
+{
+    using namespace surface;
+    static const brume_effect effect = [] {
+        brume_effect e{};
+        e.struct_size = sizeof e;
+        e.abi = BRUME_PLUGIN_ABI;
+        e.name = "surface";
+        e.help = "lights the picture's surfaces as the scene's lamps do through the medium";
+        e.order = 50;
+        e.thread_safety = BRUME_THREADS_SAFE;
+        e.wanted = BRUME_WANTED_WITH_LIGHTS;
+        e.layers = layer_table;
+        e.layer_count = layer_count;
+        e.uses = used;
+        e.use_count = product_count;
+        e.plan = plan;
+        e.execute = execute;
+        e.destroy = [](void *state) { delete static_cast<State *>(state); };
+        return e;
+    }();
+    return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
+}

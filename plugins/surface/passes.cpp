@@ -1,0 +1,196 @@
+#include "passes.h"
+
+#include <iterator>
+#include <string_view>
+
+#include "pass_tables.hpp"
+#include "state.h"
+
+namespace surface {
+
+std::string_view pass_text(std::string_view name);
+
+namespace {
+
+using namespace brume_passes;
+
+constexpr brume_slot normals_slots[] = {fetch("depth"), write("normals")};
+static_assert(std::size(normals_slots) == normals::slot_count);
+
+constexpr brume_slot group_slots[] = {fetch("rest"),      fetch("lit"),      fetch("group"),
+                                      fetch("depth"),     fetch("normals"),  fetch("lights"),
+                                      fetch("gaussians"), write("rest_out"), write("lit_out")};
+static_assert(std::size(group_slots) == group::slot_count);
+
+constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),   fetch("lit"),        fetch("depth"),
+                                        fetch("normals"),     fetch("lights"), fetch("ungrouped"),  fetch("gaussians"),
+                                        fetch("environment"), write("result"), write("surface_out")};
+static_assert(std::size(compose_slots) == compose::slot_count);
+
+constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, settings, light_count),
+                                              BRUME_CONSTANT_OF(Constants, settings, gaussian_count),
+                                              BRUME_CONSTANT_OF(Constants, settings, environment_order),
+                                              BRUME_CONSTANT_OF(Constants, settings, world_normals),
+                                              BRUME_CONSTANT(Constants, light),
+                                              BRUME_CONSTANT(Constants, first)};
+
+template <size_t Slots>
+brume_status create_pass(const brume_services &services, brume_host host, const char *name, const brume_slot (&slots)[Slots],
+                         brume_rows_function rows, brume_pass &out)
+{
+    const std::string file = "surface_" + std::string(name) + ".comp";
+    return create(services, host, described(name, slots, constants_table, sizeof(Constants)), file.c_str(), pass_text(file),
+                  "", rows, out);
+}
+
+// The data image in `out` has these values from now on.
+brume_status refresh(const brume_services &services, brume_host host, Upload slot, int32_t channels,
+                     std::vector<float> values, std::vector<float> &last, brume_plugin_image &out)
+{
+    if (values.empty() || (out && values == last))
+        return BRUME_OK;
+    last = std::move(values);
+    return services.upload(host, slot, channels, last.data(), last.size() / size_t(channels), &out);
+}
+
+class Frame {
+public:
+    Frame(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)
+        : services_(services), host_(host), frame_(frame), state_(state), scene_(*frame.scene)
+    {
+        constants_.settings.light_count = int32_t(scene_.light_count);
+        constants_.settings.gaussian_count = scene_.gaussian_count <= most_gaussians ? int32_t(scene_.gaussian_count) : 0;
+        for (uint32_t n = scene_.environment_count;
+             uint32_t(constants_.settings.environment_order * constants_.settings.environment_order) < n;)
+            ++constants_.settings.environment_order;
+        const brume_plugin_layer &normal = frame.layers[layer_normal];
+        constants_.settings.world_normals = normal.image && normal.kind == BRUME_LAYER_WORLD;
+        normals_ = normal.image ? normal.image : state.normals;
+        constants_.first = 1;
+    }
+
+    brume_status upload();
+    brume_status normals();
+    brume_status groups();
+    brume_status compose();
+
+private:
+    brume_plugin_image product(Product of) const
+    {
+        return frame_.products[of].image_count ? frame_.products[of].images[0] : nullptr;
+    }
+    brume_plugin_image group_of(uint32_t light) const
+    {
+        const brume_plugin_image *groups = frame_.layers[layer_light_group].of_lights;
+        return groups ? groups[light] : nullptr;
+    }
+    brume_status run(brume_pass pass, const brume_plugin_image *images)
+    {
+        return services_.run(host_, pass, images, &constants_, state_.width, state_.height, nullptr);
+    }
+
+    const brume_services &services_;
+    brume_host host_;
+    const brume_plugin_frame &frame_;
+    State &state_;
+    const brume_plugin_scene &scene_;
+    Constants constants_{};
+    brume_plugin_image normals_ = nullptr;
+    int now_ = 0;  // which of the state's pairs was written last
+};
+
+brume_status Frame::upload()
+{
+    std::vector<float> ungrouped, environment;
+    for (uint32_t l = 0; l < scene_.light_count; ++l)
+        ungrouped.push_back(group_of(l) ? 0.0f : 1.0f);
+    for (uint32_t i = 0; i < scene_.environment_count; ++i)
+        environment.insert(environment.end(),
+                           {scene_.environment[i][0], scene_.environment[i][1], scene_.environment[i][2], 0.0f});
+    if (brume_status s =
+            refresh(services_, host_, upload_ungrouped, 1, std::move(ungrouped), state_.ungrouped_values, state_.ungrouped))
+        return s;
+    return refresh(services_, host_, upload_environment, 4, std::move(environment), state_.environment_values,
+                   state_.environment);
+}
+
+brume_status Frame::normals()
+{
+    using namespace surface::normals;
+    if (frame_.layers[layer_normal].image)
+        return BRUME_OK;
+    brume_plugin_image images[slot_count] = {};
+    images[depth] = frame_.depth;
+    images[Slot::normals] = state_.normals;
+    return run(state_.normals_pass, images);
+}
+
+brume_status Frame::groups()
+{
+    using namespace surface::group;
+    for (uint32_t l = 0; l < scene_.light_count; ++l) {
+        if (!group_of(l))
+            continue;
+        brume_plugin_image images[slot_count] = {};
+        images[rest] = constants_.first ? frame_.color : state_.rest[now_];
+        images[lit] = constants_.first ? nullptr : state_.lit[now_];
+        images[Slot::group] = group_of(l);
+        images[depth] = frame_.depth;
+        images[Slot::normals] = normals_;
+        images[lights] = product(product_lights);
+        images[gaussians] = product(product_gaussians);
+        now_ = 1 - now_;
+        images[rest_out] = state_.rest[now_];
+        images[lit_out] = state_.lit[now_];
+        constants_.light = int32_t(l);
+        if (brume_status s = run(state_.group_pass, images))
+            return s;
+        constants_.first = 0;
+    }
+    return BRUME_OK;
+}
+
+brume_status Frame::compose()
+{
+    using namespace surface::compose;
+    brume_plugin_image images[slot_count] = {};
+    images[color] = frame_.color;
+    images[rest] = constants_.first ? nullptr : state_.rest[now_];
+    images[lit] = constants_.first ? nullptr : state_.lit[now_];
+    images[depth] = frame_.depth;
+    images[Slot::normals] = normals_;
+    images[lights] = product(product_lights);
+    images[ungrouped] = state_.ungrouped;
+    images[gaussians] = product(product_gaussians);
+    images[environment] = state_.environment;
+    images[result] = frame_.output;
+    images[surface_out] = frame_.layers[layer_surface].image;
+    return run(state_.compose_pass, images);
+}
+
+}  // namespace
+
+brume_status create_passes(const brume_services &services, brume_host host, State &state)
+{
+    if (state.normals)
+        if (brume_status s = create_pass(services, host, "normals", normals_slots, normals_rows, state.normals_pass))
+            return s;
+    if (state.rest[0])
+        if (brume_status s = create_pass(services, host, "group", group_slots, group_rows, state.group_pass))
+            return s;
+    return create_pass(services, host, "compose", compose_slots, compose_rows, state.compose_pass);
+}
+
+brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)
+{
+    Frame passes(services, host, frame, state);
+    if (brume_status s = passes.upload())
+        return s;
+    if (brume_status s = passes.normals())
+        return s;
+    if (brume_status s = passes.groups())
+        return s;
+    return passes.compose();
+}
+
+}  // namespace surface

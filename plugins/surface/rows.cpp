@@ -1,0 +1,81 @@
+// The passes on the CPU: loops over rows around the functions of shaders/lib/surface.glsl.
+#include <limits>
+
+#include "passes.h"
+#include "pixels.hpp"
+
+namespace surface {
+
+using namespace brume::maths_float;
+using namespace brume_pixels;
+
+namespace {
+
+const Constants &constants_of(const brume_plugin_rows &call)
+{
+    return *static_cast<const Constants *>(call.constants);
+}
+
+}  // namespace
+
+brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const Camera camera = camera_of(*call->scene);
+    const brume_plugin_pixels *slots = call->slots;
+    auto ray_at = [&](int x, int y) {
+        const int u = clamp(x, 0, call->width - 1), v = clamp(y, 0, call->height - 1);
+        // Beyond the border there is no neighbour: the one on the other side counts.
+        const float raw = u == x && v == y ? *at(slots[normals::depth], x, y) : std::numeric_limits<float>::infinity();
+        return pixel_ray(camera, pixel_centre(u, v), raw);
+    };
+    return for_pixels(*call, first, last, [&](int x, int y) {
+        const vec3 normal =
+            normal_by_depth(ray_at(x, y), ray_at(x - 1, y), ray_at(x + 1, y), ray_at(x, y - 1), ray_at(x, y + 1));
+        store(slots[normals::normals], x, y, vec4(normal, 1.0f));
+    });
+}
+
+brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const Constants &constants = constants_of(*call);
+    const Medium medium = medium_of(*call->scene);
+    const Camera camera = camera_of(*call->scene);
+    const brume_plugin_pixels *slots = call->slots;
+    const Texture gaussians = texture_of(slots[group::gaussians]);
+    const Light light = light_at(texture_of(slots[group::lights]), constants.light);
+    return for_pixels(*call, first, last, [&](int x, int y) {
+        const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[group::depth], x, y),
+                                           vec3(load(slots[group::normals], x, y)));
+        const Divided before{vec3(load(slots[group::rest], x, y)),
+                             constants.first ? vec3(0.0f) : vec3(load(slots[group::lit], x, y))};
+        const Divided after = divided_by_group(medium, constants.settings, surface, light, gaussians, before,
+                                               vec3(load(slots[group::group], x, y)));
+        store(slots[group::rest_out], x, y, vec4(after.rest, 1.0f));
+        store(slots[group::lit_out], x, y, vec4(after.lit, 1.0f));
+    });
+}
+
+brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const Constants &constants = constants_of(*call);
+    const Medium medium = medium_of(*call->scene);
+    const Camera camera = camera_of(*call->scene);
+    const brume_plugin_pixels *slots = call->slots;
+    const Texture lights = texture_of(slots[compose::lights]), ungrouped = texture_of(slots[compose::ungrouped]),
+                  gaussians = texture_of(slots[compose::gaussians]), environment = texture_of(slots[compose::environment]);
+    return for_pixels(*call, first, last, [&](int x, int y) {
+        const vec4 source = load(slots[compose::color], x, y);
+        const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[compose::depth], x, y),
+                                           vec3(load(slots[compose::normals], x, y)));
+        const Divided divided = constants.first
+                                    ? Divided{vec3(source), vec3(0.0f)}
+                                    : Divided{vec3(load(slots[compose::rest], x, y)), vec3(load(slots[compose::lit], x, y))};
+        const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, surface, vec3(source), divided,
+                                 call->scene->output_limit);
+        store(slots[compose::result], x, y, vec4(shown, source.w));
+        if (slots[compose::surface_out].data)
+            store(slots[compose::surface_out], x, y, vec4(shown, 1.0f));
+    });
+}
+
+}  // namespace surface

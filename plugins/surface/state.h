@@ -1,0 +1,41 @@
+#pragma once
+#include <vector>
+
+#include <brume/brume_plugin.h>
+
+namespace surface {
+
+// In the order of the effect's tables.
+enum Layer { layer_normal, layer_light_group, layer_surface, layer_count };
+enum Product { product_lights, product_gaussians, product_density_rgb, product_count };
+
+// Of the data images.
+enum Upload : uint32_t { upload_ungrouped, upload_environment };
+
+// Of more Gaussians than these the light's way is not followed through: each costs every pixel and lamp.
+constexpr uint32_t most_gaussians = 256;
+
+// What one plan of this effect holds. Images and passes that a plan does not need are NULL.
+struct State {
+    int width = 0;
+    int height = 0;
+    brume_plugin_image normals = nullptr;  // from depth
+    // Before and after one lamp's own layer, by turns.
+    brume_plugin_image rest[2] = {};
+    brume_plugin_image lit[2] = {};
+
+    brume_plugin_image ungrouped = nullptr, environment = nullptr;
+    std::vector<float> ungrouped_values, environment_values;
+
+    brume_pass normals_pass = nullptr;
+    brume_pass group_pass = nullptr;
+    brume_pass compose_pass = nullptr;
+};
+
+// At planning, when the entries are there.
+brume_status create_passes(const brume_services &services, brume_host host, State &state);
+
+// One frame's passes, in order.
+brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state);
+
+}  // namespace surface
