@@ -206,6 +206,7 @@ BRUME_API brume_status brume_parameter_get_info(brume_context context, const cha
 #define BRUME_LAYER_OUTPUT 2u   /* filled */
 #define BRUME_LAYER_NEEDED 4u   /* an input without which the effect does not run */
 #define BRUME_LAYER_OF_LIGHT 8u /* one for each light of the scene */
+#define BRUME_LAYER_ANY_SIZE 16u /* an input whose images need not have the frame's size: of another view than its camera's */
 
 /* A layer that an effect reads or fills. */
 typedef struct brume_layer_info {
@@ -297,6 +298,10 @@ BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_med
 #define BRUME_LIGHT_SPOT 1u        /* the same within a cone */
 #define BRUME_LIGHT_DIRECTIONAL 2u /* parallel light, such as the sun's */
 
+#define BRUME_SHADOW_NONE 0u
+#define BRUME_SHADOW_PERSPECTIVE 1u  /* of POINT and SPOT */
+#define BRUME_SHADOW_ORTHOGRAPHIC 2u /* of DIRECTIONAL */
+
 /* A light for single scattering (effect airlight). Lights do not light surfaces: the image shows those as they are. */
 typedef struct brume_light {
   uint32_t struct_size;
@@ -311,9 +316,18 @@ typedef struct brume_light {
   double penumbra;      /* SPOT: share of the half angle over which it falls off to nothing, 0 to 1; default .1 */
   double distance;      /* DIRECTIONAL: length that its light has come through the constant density terms, in scene units,
                            >= 0; default 0. These have no end, and without it would let no light in. */
+
+  /* Where the light's shadow map looks: a depth picture of the scene from the light, which frames bring as the layer "shadow"
+     of this light. Its pixels are square; depths are in scene units, and what is NaN, infinite or <= 0 shows nothing. */
+  uint32_t shadow_kind;       /* BRUME_SHADOW_...; default NONE */
+  uint32_t shadow_depth;      /* BRUME_DEPTH_PLANAR (default) or BRUME_DEPTH_RAY */
+  double shadow_extent;       /* PERSPECTIVE: of the map's height [rad], 0 < extent < pi; ORTHOGRAPHIC: width of the map, in scene
+                                 units, > 0 */
+  double shadow_to_world[16]; /* as brume_camera.camera_to_world, of the map's camera */
 } brume_light;
 #define BRUME_LIGHT_INIT {(uint32_t)sizeof(brume_light), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 1.0, 1.0}, \
-                          0.0, 0.7853981633974483, 0.1, 0.0}
+                          0.0, 0.7853981633974483, 0.1, 0.0, BRUME_SHADOW_NONE, 0u, 0.0, \
+                          {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}}
 BRUME_API void brume_light_init(brume_light *light, size_t size);
 
 #define BRUME_MAX_LIGHTS 4096u
@@ -329,6 +343,10 @@ BRUME_API brume_status brume_scene_set_environment(brume_scene scene, const doub
 /* The lat-long environment image that the scene's text names, which the library does not read; "" if none. Copied as
    brume_message does. Planning such a scene fails until brume_scene_set_environment gives its coefficients. */
 BRUME_API size_t brume_scene_environment_file(brume_scene scene, char *buffer, size_t capacity);
+
+/* The shadow map that the scene's text names for a light, which the library does not read; "" if none. Copied as brume_message
+   does. Planning such a scene fails unless the format's inputs have the layer "shadow". */
+BRUME_API size_t brume_scene_light_shadow_file(brume_scene scene, uint32_t light, char *buffer, size_t capacity);
 
 #define BRUME_CAMERA_FIELD_OF_VIEW 1u /* vertical_fov, pixel_aspect and center are given */
 #define BRUME_CAMERA_POSE 2u          /* camera_to_world is given */
@@ -446,7 +464,8 @@ BRUME_API void brume_image_init(brume_image *image, size_t size);
 
 /* A picture beside colour and depth, by the name of what it holds. Effects say which they read and fill
    (brume_layer_get_info); those that ship know, for instance,
-     inputs   optical_depth, transmittance (of any renderer's fog: they take the place of the scene's density along the ray)
+     inputs   optical_depth, transmittance (of any renderer's fog: they take the place of the scene's density along the ray),
+              shadow (shadow map of one light, one channel, of any size: see brume_light.shadow_kind)
      outputs  transmittance (exp(-tau), RGB), optical_depth (tau, RGB; sky in a medium without end gives up to 1e30 times sigma),
               scattered (what was added to the attenuated image: scattered and emitted radiance, RGB), blur_radius (deviation of
               the blur of this pixel's light [px], one channel), airlight (radiance of the lights scattered once toward the
@@ -518,7 +537,7 @@ BRUME_API void brume_plan_destroy(brume_plan plan);
    terms and Gaussians, lights, environment and camera may differ. format NULL: as it was; else depth ranges, far and sky
    distances may differ. Structure is: the effects and their parameters, the quality asked, whether there is a medium and which of
    its values are zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian
-   densities, whether there are lights, how many coefficients the environment has; the size, the display window's presence
+   densities, whether there are lights and such with a shadow map, how many coefficients the environment has; the size, the display window's presence
    and the layers of the format. Where that differs the call fails with BRUME_ERROR_FORMAT, names what differs, and leaves the plan as
    it was. Cheap: it copies the scene. Predictions stay those of the scene that was planned. */
 BRUME_API brume_status brume_plan_update(brume_plan plan, brume_scene scene, const brume_format *format);
