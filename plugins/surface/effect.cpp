@@ -153,7 +153,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.help = "lights the picture's surfaces as the scene's lamps do through the medium";
         e.order = 50;
         e.thread_safety = BRUME_THREADS_SAFE;
-        e.wanted = BRUME_WANTED_WITH_LIGHTS;
+        // Pictures whose surfaces emit would be taken for lit ones: only who made the picture knows.
+        e.wanted = BRUME_WANTED_NEVER;
         e.layers = layer_table;
         e.layer_count = layer_count;
         e.uses = used;
