@@ -80,7 +80,7 @@ FIELD(brume_gaussian, scale, 32, 8);
 FIELD(brume_gaussian, amplitude, 40, 8);
 FIELD(brume_gaussian, colour, 48, 24);
 
-SIZE(brume_light, 112);
+SIZE(brume_light, 256);
 FIELD(brume_light, struct_size, 0, 4);
 FIELD(brume_light, type, 4, 4);
 FIELD(brume_light, position, 8, 24);
@@ -90,6 +90,10 @@ FIELD(brume_light, radius, 80, 8);
 FIELD(brume_light, angle, 88, 8);
 FIELD(brume_light, penumbra, 96, 8);
 FIELD(brume_light, distance, 104, 8);
+FIELD(brume_light, shadow_kind, 112, 4);
+FIELD(brume_light, shadow_depth, 116, 4);
+FIELD(brume_light, shadow_extent, 120, 8);
+FIELD(brume_light, shadow_to_world, 128, 128);
 
 SIZE(brume_medium, 168);
 FIELD(brume_medium, struct_size, 0, 4);
