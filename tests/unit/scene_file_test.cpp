@@ -233,7 +233,7 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("lights": [{"type": "lamp"}])", R"(2:21: lights[0].type: "lamp"; expected "point", "spot" or "directional")"},
         {R"("lights": [{"type": "point", "position": [0,0,0]}])", R"(2:12: lights[0]: has no "intensity"; expected one)"},
         {R"("lights": [{"type": "point", "direction": [0,0,1]}])",
-         R"(2:30: unknown key "direction"; expected one of type, intensity, position, radius)"},
+         R"(2:30: unknown key "direction"; expected one of type, intensity, position, radius, shadow)"},
         {R"("lights": [{"type": "spot", "position": [0,0,0], "direction": [0,0,1], "intensity": 1, "angle": 181}])",
          "2:97: lights[0].angle: 181; expected a number from 0 to 180"},
         {R"("environment": {})", R"(2:16: environment: has no "sh"; expected one)"},
