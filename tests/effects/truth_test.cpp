@@ -212,7 +212,7 @@ TEST_F(Truth, LampsThatLightWhatIsSeen)
         scene["effects"]["multiscatter"] = Json::object();
         const Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}),
                       truth = read_exr(file + ".exr", {"R", "G", "B"});
-        for (const char *where : {"cpu", "gl"}) {
+        for (const char *where : fog::backend_names) {
             auto fogged = [&](const Json &airlight) {
                 scene["effects"]["airlight"] = airlight;
                 const Picture got = run(backend(where), scene.dump(), color, depth).output;
