@@ -6,7 +6,7 @@
 
 namespace brume {
 
-// Which Gaussians matter in which tiles of the screen: as frame->tiles and frame->tile_gaussians have it.
+// Which Gaussians matter in which tiles of the screen: as product "gaussians" has them.
 struct GaussianTiles {
     int32_t columns = 0;
     int32_t rows = 0;

@@ -1,4 +1,4 @@
-// The host's lists of the Gaussians that matter in a tile of the screen (frame->tiles, frame->tile_gaussians).
+// The host's lists of the Gaussians that matter in a tile of the screen (product "gaussians").
 // Needs noise.glsl, data.glsl.
 
 const int tile_size = 16;  // BRUME_TILE_SIZE
