@@ -67,6 +67,8 @@ brume_status Planner::check_tier()
 {
     const Tier tier = state_->parameters.tier;
     const auto &m = *scene_.medium;
+    if (tier == Tier::reference && request_.backend != BRUME_BACKEND_CPU)
+        return fail("tier: reference on OpenGL; expected nodes, or the CPU, on which alone references run");
     if (tier != Tier::sun && tier != Tier::fogshop)
         return BRUME_OK;
     const std::string name = tier == Tier::sun ? "sun" : "fogshop";

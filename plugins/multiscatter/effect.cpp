@@ -217,6 +217,12 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     const Kernel kernel = state->parameters.kernel;
     if (kernel == Kernel::reference || kernel == Kernel::paper_reference) {
+        const bool paper = kernel == Kernel::paper_reference;
+        if (request_.backend != BRUME_BACKEND_CPU)
+            return services_.fail(
+                host_, BRUME_ERROR_UNSUPPORTED,
+                paper ? "kernel: paper_reference on OpenGL; expected paper, or the CPU, on which alone references run"
+                      : "kernel: reference on OpenGL; expected calibrated, or the CPU, on which alone references run");
         s = run("reference", "every pixel's light to every other, in double", 52, 30.0 * request_.width * request_.height);
         if (!s)
             s = plan_reference_passes(services_, host_, *state);
@@ -268,7 +274,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
     static constexpr brume_layer_info layers[layer_count] = {
         {size, BRUME_LAYER_OUTPUT, 3, 0, "transmittance", "exp(-tau) of the medium in front of each pixel"},
         {size, BRUME_LAYER_OUTPUT, 3, 0, "optical_depth", "tau of the medium in front of each pixel"},
-        {size, BRUME_LAYER_OUTPUT, 3, 0, "scattered", "scattered and emitted radiance, which is added to the attenuated image"},
+        {size, BRUME_LAYER_OUTPUT, 3, 0, "scattered",
+         "scattered and emitted radiance, which is added to the attenuated image"},
         {size, BRUME_LAYER_OUTPUT, 1, 0, "blur_radius", "deviation of the blur of each pixel's light, in pixels"}};
     static constexpr const char *uses[use_count] = {"density", "density_rgb", "gaussian_density", "visible_lights"};
     static constexpr const char *makes[] = {"attenuated_radiance"};

@@ -205,17 +205,27 @@ TEST(Reference, SplattingIsLinearAndSymmetric)
 }
 
 #ifdef BRUME_GL
-TEST(Reference, IsRefusedOnGlWithTheReason)
+TEST(Reference, IsRefusedOnGlWithTheParameter)
 {
     if (!gl())
         throw std::runtime_error("no GL backend");
-    try {
-        run(*gl(), paper_scene("\"scattering\":0.03", "\"kernel\":\"paper_reference\""), Picture(4, 4, 4, 1),
-            constant_depth(4, 4, 1));
-        FAIL() << "expected a refusal";
-    } catch (const Failure &failure) {
-        EXPECT_EQ(failure.status, BRUME_ERROR_UNSUPPORTED);
-        EXPECT_NE(std::string(failure.what()).find("reference"), std::string::npos) << failure.what();
+    const std::pair<const char *, const char *> asked[] = {
+        {"\"multiscatter\":{\"kernel\":\"reference\"}", "multiscatter: kernel: reference on OpenGL; expected calibrated"},
+        {"\"multiscatter\":{\"kernel\":\"paper_reference\"}",
+         "multiscatter: kernel: paper_reference on OpenGL; expected paper"},
+        {"\"airlight\":{\"tier\":\"reference\"}", "airlight: tier: reference on OpenGL; expected nodes"}};
+    for (const auto &[effect, message] : asked) {
+        std::string text = paper_scene("\"scattering\":0.03", "");
+        text.replace(text.find("\"effects\""), std::string::npos,
+                     std::string("\"lights\":[{\"type\":\"point\",\"position\":[0,1,-5],\"intensity\":9}],\"effects\":{") +
+                         effect + "}}");
+        try {
+            run(*gl(), text, Picture(4, 4, 4, 1), constant_depth(4, 4, 1));
+            ADD_FAILURE() << "expected a refusal: " << message;
+        } catch (const Failure &failure) {
+            EXPECT_EQ(failure.status, BRUME_ERROR_UNSUPPORTED);
+            EXPECT_EQ(std::string(failure.what()).find(message), 0u) << failure.what();
+        }
     }
 }
 #endif
@@ -382,11 +392,10 @@ TEST_P(Backends, SkyOptions)
     std::string s = paper_scene("\"absorption\":0.1");
     EXPECT_EQ(run(context(), s, color, depth).output.at(3, 3)[0], 0.0f);
     EXPECT_EQ(run(context(), s, color, depth, {[](brume_format &f) { f.sky = BRUME_SKY_KEEP; }}).output.at(3, 3)[0], 1.0f);
-    auto clamped = run(context(), s, color, depth,
-                       {[](brume_format &f) {
-                            f.sky = BRUME_SKY_CLAMP;
-                            f.sky_distance = 5;
-                        }});
+    auto clamped = run(context(), s, color, depth, {[](brume_format &f) {
+                           f.sky = BRUME_SKY_CLAMP;
+                           f.sky_distance = 5;
+                       }});
     EXPECT_NEAR(clamped.output.at(3, 3)[0], std::exp(-0.5), 1e-5);
 }
 
