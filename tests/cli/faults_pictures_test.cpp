@@ -1,6 +1,8 @@
 #include <cmath>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "files.hpp"
 #include "image/library.hpp"
@@ -157,6 +159,26 @@ TEST_F(PictureFaults, CmykAndTurnedPicturesAreRefused)
     expect_failed("cmyk.tif", "d.png", {"cmyk.tif", "expected"});
     write_text(folder_ / "turned.tif", patch(tiff, 274, 6));
     expect_failed("turned.tif", "d.png", {"turned.tif", "orientation 6"});
+}
+
+TEST_F(PictureFaults, ADiskThatTakesNoMoreIsAnErrorAndLeavesNothing)
+{
+    std::vector<std::uint8_t> noise;
+    for (std::uint32_t i = 0, h = 1; i < 3 * 128 * 96; ++i)
+        noise.push_back(std::uint8_t((h = h * 1664525 + 1013904223) >> 24));
+    write_png(folder_ / "n.png", 3, noise, 128, 96);
+    write_png(folder_ / "z.png", 1, std::vector<std::uint16_t>(128 * 96, 500), 128, 96);
+    fs::create_directory(folder_ / "out");
+    for (const char *ending : {"png", "jpg", "tif", "dpx", "hdr", "pfm", "npy", "exr"}) {
+        // A file may have 8 blocks, of 512 or 1024 bytes; what is ignored here is ignored there.
+        const std::string command = "trap '' XFSZ; ulimit -f 8; exec '" BRUME_TOOL "' run '" + clear_.string() + "' '" +
+                                    (folder_ / "n.png").string() + "' -o '" + (folder_ / "out" / "o.").string() + ending +
+                                    "' --backend cpu --depth '" + (folder_ / "z.png").string() +
+                                    "' --depth-scale 0.01 --vfov 50 2>/dev/null";
+        const int status = std::system(command.c_str());
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << ending << " " << status;
+        EXPECT_TRUE(fs::is_empty(folder_ / "out")) << ending;
+    }
 }
 
 }  // namespace

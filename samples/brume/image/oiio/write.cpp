@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -16,6 +17,15 @@ OIIO::TypeDesc oiio_type(SampleType type)
            : type == SampleType::kUint16 ? OIIO::TypeDesc::UINT16
            : type == SampleType::kHalf   ? OIIO::TypeDesc::HALF
                                          : OIIO::TypeDesc::FLOAT;
+}
+
+void write_bytes(const std::filesystem::path &file, const std::string &final_name, const std::vector<unsigned char> &bytes)
+{
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(reinterpret_cast<const char *>(bytes.data()), std::streamsize(bytes.size()));
+    stream.close();
+    if (!stream)
+        throw FrameError(fmt::format("{}: cannot be written: the disk takes no more", final_name));
 }
 
 /// The header has the name under which the file was written, which is a temporary one that differs from run to run.
@@ -69,10 +79,16 @@ void write_picture(const std::filesystem::path &file, const std::string &final_n
     }
     if (format == "dpx" && raster.type == SampleType::kUint16)
         spec.attribute("oiio:BitsPerSample", 16);
+    // On a full disk OpenImageIO reports success for a PNG that is cut, and ends the process for a JPEG. Coded in memory,
+    // the bytes are written here.
+    OIIO::Filesystem::IOVecOutput coded;
+    const bool in_memory = output->supports("ioproxy") && output->set_ioproxy(&coded);
     if (!output->open(file.string(), spec))
         fail(output->geterror());
     if (!output->write_image(spec.format, raster.pixels) || !output->close())
         fail(output->geterror());
+    if (in_memory)
+        write_bytes(file, final_name, coded.buffer());
     if (format == "dpx")
         rename_in_dpx(file, final_name);
 }
