@@ -53,6 +53,7 @@ private:
     double gather_operations() const;
     brume_status plan_gather();
     const char *why_unlit(bool dense) const;
+    bool choose_maps() const;
 
     const brume_services &services_;
     brume_host host_;
@@ -131,6 +132,19 @@ double Planner::gather_operations() const
     return operations;
 }
 
+// Maps serve many Gaussians; where there are few, nodes are both nearer and faster. Where the grid cannot be as fine as the
+// Gaussians are small, they are not taken unasked.
+bool Planner::choose_maps() const
+{
+    const Tier tier = state_->parameters.tier;
+    if (scene_.gaussian_count == 0 || scene_.light_count == 0)
+        return false;
+    if (tier != Tier::automatic)
+        return tier == Tier::maps;
+    const double pixels = double(state_->width) * state_->height / (state_->parameters.reduction * state_->parameters.reduction);
+    return maps_suit(request_, *state_) && 2 * mapped_operations(request_, *state_) < pixels * gather_operations();
+}
+
 brume_status Planner::plan_gather()
 {
     State &state = *state_;
@@ -149,6 +163,11 @@ brume_status Planner::plan_gather()
             return s;
     if (brume_status s = plan_tables(services_, host_, scene_, state))
         return s;
+    if (choose_maps()) {
+        state.maps.used = true;
+        if (brume_status s = plan_maps(services_, host_, request_, state))
+            return s;
+    }
     state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
     if (state.has_blobs)
         if (brume_status s = entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved",
@@ -162,7 +181,7 @@ brume_status Planner::plan_gather()
             (state.parameters.orders == Orders::all ? " scattered any number of times" : " scattered once") +
             (state.shadowed ? ", in the shadows of solid things" : "") +
             (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
-        pixels * (4 + 16), pixels * gather_operations());
+        pixels * (4 + 16), state.maps.used ? mapped_operations(request_, state) : pixels * gather_operations());
 }
 
 const char *Planner::why_unlit(bool dense) const
@@ -232,7 +251,7 @@ uint32_t makes_with(const double *values, uint32_t index)
 {
     const Parameters p = read_parameters(values);
     return made[index] != std::string_view("all_scattering") ||
-           (p.orders == Orders::all && (p.tier == Tier::nodes || p.tier == Tier::reference));
+           (p.orders == Orders::all && p.tier != Tier::fogshop && p.tier != Tier::sun);
 }
 
 }  // namespace

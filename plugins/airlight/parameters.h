@@ -5,7 +5,7 @@
 
 namespace airlight {
 
-enum class Tier { nodes, fogshop, sun, reference };
+enum class Tier { nodes, fogshop, sun, reference, maps, automatic };
 enum class Orders { single, all };
 enum class Ground { none, y, z };
 
@@ -16,6 +16,7 @@ struct Parameters {
     Orders orders;
     Ground ground;
     double ground_height;  // [m]
+    double memory;         // of the grid of tier maps, at most [MB]
 };
 
 std::span<const brume_parameter_info> parameter_table();

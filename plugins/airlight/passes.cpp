@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "pass_tables.hpp"
 #include "settings.h"
 #include "state.h"
 
@@ -57,18 +56,7 @@ constexpr brume_slot compose_slots[] = {fetch("color"),
                                         write("airlight_error_out")};
 static_assert(std::size(compose_slots) == compose::slot_count);
 
-constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, airlight, light_count),
-                                              BRUME_CONSTANT_OF(Constants, airlight, gaussian_count),
-                                              BRUME_CONSTANT_OF(Constants, airlight, environment_order),
-                                              BRUME_CONSTANT_OF(Constants, airlight, panels),
-                                              BRUME_CONSTANT_OF(Constants, airlight, dense_from),
-                                              BRUME_CONSTANT_OF(Constants, airlight, cells),
-                                              BRUME_CONSTANT_OF(Constants, airlight, tolerance),
-                                              BRUME_CONSTANT_OF(Constants, airlight, near_radii),
-                                              BRUME_CONSTANT_OF(Constants, airlight, culled),
-                                              BRUME_CONSTANT_OF(Constants, airlight, orders),
-                                              BRUME_CONSTANT_OF(Constants, airlight, ground),
-                                              BRUME_CONSTANT_OF(Constants, airlight, shadowed),
+constexpr brume_constant constants_table[] = {BRUME_AIRLIGHT_SETTINGS(Constants),
                                               BRUME_CONSTANT(Constants, size),
                                               BRUME_CONSTANT(Constants, light_range),
                                               BRUME_CONSTANT(Constants, reduction)};
@@ -207,7 +195,7 @@ brume_status Frame::compose()
 
 brume_status create_passes(const brume_services &services, brume_host host, uint32_t outputs, State &state)
 {
-    if (state.lit || (outputs & (1u << layer_light_airlight)))
+    if ((state.lit && !state.maps.used) || (!state.lit && (outputs & (1u << layer_light_airlight))))
         if (brume_status s = create_gather(services, host, state))
             return s;
     if (state.has_blobs)
@@ -230,12 +218,18 @@ brume_status run_passes(const brume_services &services, brume_host host, const b
         state.blobs_pending = false;
     }
     if (state.lit)
-        if (brume_status s = passes.gather_all())
+        if (brume_status s = state.maps.used ? gather_by_maps(services, host, frame, state,
+                                                              {0, int(frame.scene->light_count), state.radiance, state.error,
+                                                               state.distances, true, state.parameters.reduction})
+                                             : passes.gather_all())
             return s;
     const brume_plugin_image *of_lights = frame.layers[layer_light_airlight].of_lights;
     for (uint32_t l = 0; of_lights && l < frame.scene->light_count; ++l)
         if (of_lights[l])
-            if (brume_status s = passes.gather_light(l, of_lights[l]))
+            if (brume_status s = state.maps.used && state.lit
+                                     ? gather_by_maps(services, host, frame, state,
+                                                      {int(l), int(l) + 1, of_lights[l], nullptr, nullptr, false, 1})
+                                     : passes.gather_light(l, of_lights[l]))
                 return s;
     return passes.compose();
 }

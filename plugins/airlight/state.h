@@ -3,6 +3,7 @@
 
 #include <brume/brume_plugin.h>
 
+#include "maps/maps.h"
 #include "parameters.h"
 #include "shadow_lists.h"
 
@@ -36,7 +37,9 @@ enum Upload : uint32_t {
     upload_blob_density,
     upload_sun_table,
     upload_environment,
-    upload_environment_table
+    upload_environment_table,
+    upload_slices,
+    upload_attenuation_frames
 };
 
 constexpr uint32_t most_shadow_maps = 4;
@@ -76,6 +79,8 @@ struct State {
     bool fresh = false;
 
     ShadowMap shadow_maps[most_shadow_maps];  // of the frame at hand
+
+    Maps maps;
 
     // NULL: not needed.
     brume_pass blobs = nullptr;
