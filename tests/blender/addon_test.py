@@ -305,6 +305,9 @@ class Frames(AddonTest):
         written = {number: self.clear_and_foggy(number)[1] for number in (1, 2)}
         scene.brume.output = "again"
         bpy.ops.brume.fog_frames()
+        run = module("tool").Run([TOOL, "run", self.path("clear", "again", "fog.json"), self.path("clear", "shot.####.exr"), "-o",
+                                  self.path("third.####.exr")])
+        self.assertEqual((run.wait(), run.done, run.total, run.messages), (0, 2, 2, []))
         for number in (1, 2):
             again = self.clear_and_foggy(number, "again")[1]
             for channel, values in written[number].items():

@@ -2,12 +2,16 @@
 import json
 import os
 import queue
+import re
 import shutil
 import signal
 import subprocess
 import threading
 
 import bpy
+
+
+_SUMMARY = re.compile(r"brume: \d+ done, ")
 
 
 class ToolError(Exception):
@@ -76,7 +80,7 @@ class Run:
             count, slash, _ = line[1:].partition("]")[0].partition("/")
             if line.startswith("[") and slash and count.isdigit():
                 self.done, self.total = int(count), int(line[1:].partition("]")[0].partition("/")[2])
-            elif line:
+            elif line and not _SUMMARY.match(line):
                 self.messages.append(line[len("brume: "):] if line.startswith("brume: ") else line)
         return status
 
