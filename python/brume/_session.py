@@ -1,4 +1,5 @@
 """One context's calls: one at a time, interruptible, and none across fork."""
+import _thread
 import collections
 import contextlib
 import ctypes
@@ -6,7 +7,7 @@ import logging
 import os
 import queue
 import threading
-from typing import Any, Callable, Deque, Iterator, Optional, Tuple
+from typing import Any, Callable, Deque, Iterator, List, Optional, Tuple
 
 from . import _abi, _library
 from .errors import ArgumentError, UnsupportedError
@@ -35,25 +36,34 @@ def _log(_user: int, level: int, message: bytes) -> None:
     _logger.log(level, "%s", message.decode("utf-8", "replace"))
 
 
-class _Progress:
-    """What the library asks while a call runs."""
+class _Call:
+    """A call that asks for progress."""
 
-    def __init__(self) -> None:
-        self.begin(None)
-
-    def begin(self, listener: Optional[Progress]) -> None:
+    def __init__(self, listener: Optional[Progress]) -> None:
         self.listener = listener
         self.cancelled = False
         self.error: Optional[BaseException] = None
 
-    def asked(self, _user: int, fraction: float) -> int:
+    def asked(self, fraction: float) -> bool:
         try:
             if self.listener and not self.cancelled and self.listener(fraction):
                 self.cancelled = True
         except BaseException as error:  # ctypes would print it and go on
-            self.error = error
-            self.cancelled = True
+            self.stop(error)
         return self.cancelled
+
+    def stop(self, error: BaseException) -> None:
+        self.error = self.error or error
+        self.cancelled = True
+
+
+class _Progress:
+    """What a context asks while a call runs. Not the session itself, which would then be kept by its own callback."""
+
+    call: Optional[_Call] = None
+
+    def asked(self, _user: int, fraction: float) -> int:
+        return self.call.asked(fraction) if self.call else 0
 
 
 class Session:
@@ -77,13 +87,14 @@ class Session:
         self.handle = handle
 
     @contextlib.contextmanager
-    def entered(self) -> Iterator[ctypes.c_void_p]:
-        """The handle, for this thread alone."""
+    def entered(self, owner: Optional[int] = None) -> Iterator[ctypes.c_void_p]:
+        """The handle, for this thread alone. owner: the thread that it works for."""
         _refuse_fork()
-        if self._owner == threading.get_ident():
+        owner = owner or threading.get_ident()
+        if self._owner == owner:
             raise ArgumentError("context: used from its own progress function; expected no call while one runs")
         with self._lock:
-            self._owner = threading.get_ident()
+            self._owner = owner
             try:
                 if self.handle is None:
                     raise ArgumentError("context: closed; expected an open one")
@@ -97,51 +108,27 @@ class Session:
         with self.entered() as handle:
             _library.check(handle, function(*arguments))
 
-    def long_call(self, progress: Optional[Progress], function: Any, *arguments: Any) -> None:
-        """The same for one that asks for progress. It ends early by an exception of `progress`, and by Ctrl-C."""
-        with self.entered() as handle:
-            self._progress.begin(progress)
+    def long_call(self, progress: Optional[Progress], function: Any, *arguments: Any, keep: Any = None) -> None:
+        """The same for one that asks for progress. It ends early by an exception of `progress`, and by Ctrl-C.
 
-            def work() -> None:
-                _library.check(handle, function(*arguments))
+        keep: what the arguments point to.
+        """
+        call, caller = _Call(progress), threading.get_ident()
 
-            if threading.current_thread() is not threading.main_thread():
-                failure = _failure_of(work)
-            else:
-                failure = self._beside(work, progress)
-            error = self._progress.error
-            self._progress.begin(None)
-            if error or failure:
-                raise error or failure  # type: ignore[misc]
+        def work(_keep: Any = keep) -> None:
+            with self.entered(caller) as handle:
+                self._progress.call = call
+                try:
+                    _library.check(handle, function(*arguments))
+                finally:
+                    self._progress.call = None
 
-    def _beside(self, work: Callable[[], None], progress: Optional[Progress]) -> Optional[BaseException]:
-        """Does the work on another thread. Python handles signals on the main one, and while a call of C runs there it does not."""
-        questions: "queue.SimpleQueue[Optional[float]]" = queue.SimpleQueue()
-        answers: "queue.SimpleQueue[bool]" = queue.SimpleQueue()
-        done = []
-
-        def ask(fraction: float) -> bool:
-            questions.put(fraction)
-            return answers.get()
-
-        def run() -> None:
-            done.append(_failure_of(work))
-            questions.put(None)
-
-        self._progress.listener = ask if progress else None
-        thread = threading.Thread(target=run, name="brume")
-        thread.start()
-        while not (done and questions.empty()):
-            try:
-                fraction = questions.get()
-                if fraction is not None and progress:
-                    answers.put(bool(progress(fraction)))
-            except BaseException as error:
-                self._progress.error = self._progress.error or error
-                self._progress.cancelled = True
-                answers.put(True)
-        thread.join()
-        return done[0]
+        if threading.current_thread() is threading.main_thread():
+            failure = _beside(work, call)
+        else:
+            failure = _failure_of(work)
+        if call.error or failure:
+            raise call.error or failure  # type: ignore[misc]
 
     def release(self, destroy: Callable[[Any], None], handle: Any) -> None:
         """Destroys an object, now or when the call that runs has ended: this may be the garbage collector in the midst of it."""
@@ -161,6 +148,46 @@ class Session:
                     destroy(handle)
             finally:
                 self._lock.release()
+
+
+def _beside(work: Callable[[], None], call: _Call) -> Optional[BaseException]:
+    """Does the work on another thread. Python handles signals on the main one, and while a call of C runs there it does not.
+
+    A signal may come between any two steps here. So the other thread has the lock and all that it needs: where an exception
+    gets out in spite of the loop, the work ends by itself.
+    """
+    questions: "queue.SimpleQueue[Optional[float]]" = queue.SimpleQueue()
+    answers: "queue.SimpleQueue[bool]" = queue.SimpleQueue()
+    done: List[Optional[BaseException]] = []
+    progress = call.listener
+
+    def ask(fraction: float) -> bool:
+        questions.put(fraction)
+        return answers.get()
+
+    def run() -> None:
+        done.append(_failure_of(work))
+        questions.put(None)
+
+    if progress:
+        call.listener = ask
+    try:
+        # Not a Thread, whose start() waits for it.
+        _thread.start_new_thread(run, ())
+        while True:
+            try:
+                while not (done and questions.empty()):
+                    fraction = questions.get()
+                    if fraction is not None and progress:
+                        answers.put(bool(progress(fraction)))
+                break
+            except BaseException as error:
+                call.stop(error)
+                answers.put(True)
+    finally:
+        call.cancelled = True
+        answers.put(True)
+    return done[0]
 
 
 def _failure_of(work: Callable[[], None]) -> Optional[BaseException]:

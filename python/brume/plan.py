@@ -206,7 +206,8 @@ class Plan(Child):
         if camera is not None:
             call.camera = ctypes.pointer(camera_struct(camera, "camera", self._display[0] / self._display[1]))
         call.frame = number(frame, "frame")
-        self._session.long_call(progress, _library.library().brume_plan_execute, self.handle(), ctypes.byref(call))
+        self._session.long_call(progress, _library.library().brume_plan_execute, self.handle(), ctypes.byref(call),
+                                keep=(color_array, depth_array, output_array, given, filled))
         return output if layers is None else (output, returned)
 
     __call__ = execute

@@ -114,6 +114,51 @@ def test_ctrl_c_ends_a_frame(slow, large, handler):
         signal.signal(number, previous)
 
 
+STORM = """
+    import os, signal, sys, threading, time
+    import numpy as np
+    import brume
+    scene = {"camera": {"vertical_fov": 50}, "medium": {"visibility": 100, "g": 0.8}}
+    color, depth = np.random.default_rng(1).random((72, 128, 3), np.float32), np.full((72, 128), 20, np.float32)
+    plan = brume.Plan(brume.Scene(scene, context=brume.default_context("cpu")), 72, 128)
+    expected = plan(color, depth)
+    stop, interrupts = threading.Event(), 0
+
+    def storm():
+        while not stop.is_set():
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.0007)
+
+    thread = threading.Thread(target=storm)
+    end = time.monotonic() + 3
+    while True:
+        try:
+            if not thread.is_alive():
+                thread.start()
+            while time.monotonic() < end:
+                try:
+                    # Arrays that go as soon as the call is left.
+                    plan(color.copy(), depth.copy(), progress=lambda fraction: None if interrupts % 2 else False)
+                except KeyboardInterrupt:
+                    interrupts += 1
+            break
+        except KeyboardInterrupt:
+            interrupts += 1
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    stop.set()
+    thread.join()
+    assert np.array_equal(plan(color, depth), expected)
+    print("interrupts" if interrupts > 20 else interrupts)
+"""
+
+
+def test_a_storm_of_interrupts():
+    """Wherever they come, nothing hangs and nothing breaks."""
+    said = subprocess.run([sys.executable, "-X", "faulthandler", "-c", textwrap.dedent(STORM)], capture_output=True, text=True,
+                          timeout=60, check=False)
+    assert said.stdout == "interrupts\n", said
+
+
 def test_threads_share_a_plan(context, scene, color, depth):
     with brume.Plan(brume.Scene(scene, context=context), HEIGHT, WIDTH) as plan:
         pictures = [color * np.float32(k + 1) for k in range(4)]
