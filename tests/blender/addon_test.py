@@ -6,6 +6,8 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
+import types
 import unittest
 
 import bpy
@@ -492,6 +494,40 @@ class Troubles(AddonTest):
         self.assertEqual(scene.brume.visibility, 77)
         self.render(scene, "still")
         self.assertEqual((module("rendering").state.problem, module("rendering").state.done), ("", 1))
+
+    def follow(self, command, events):
+        """What the modal operator answers to events and, at its end, to the clock; and what it says."""
+        operator = module("operators").FogFrames
+        said, told = [], []
+        manager = types.SimpleNamespace(progress_update=told.append, progress_end=lambda: None, event_timer_remove=lambda _: None)
+        held = types.SimpleNamespace(_run=module("tool").Run(command), _timer=None, report=lambda kind, text: said.append((kind, text)))
+        held._ended = lambda status: operator._ended(held, status)
+        answers = []
+        for event in events + ["TIMER"] * 600:
+            answers.append(operator.modal(held, types.SimpleNamespace(window_manager=manager), types.SimpleNamespace(type=event)))
+            if answers[-1] in ({"FINISHED"}, {"CANCELLED"}):
+                return answers, said, told
+            time.sleep(0.1)
+        self.fail("it does not end")
+
+    def test_frames_are_fogged_beside_the_interface(self):
+        scene = self.start()
+        scene.brume.enabled = False
+        bpy.ops.render.render(animation=True)
+        bpy.ops.brume.export(filepath=self.path("fog.json"))
+        command = [TOOL, "run", self.path("fog.json"), self.path("clear", "shot.####.exr"), "-o", self.path("out", "shot.####.exr")]
+        answers, said, told = self.follow(command, ["MOUSEMOVE"])
+        self.assertEqual((answers[0], answers[-1], said, told[-1]), ({"PASS_THROUGH"}, {"FINISHED"}, [({"INFO"}, "2 frames in fog")], 1))
+
+    def test_escape(self):
+        with open(self.path("slow"), "w", encoding="utf-8") as file:
+            file.write("#!/bin/bash\ntrap 'echo brume: ended by hand >&2; exit 1' INT\necho '[1/9] a.exr 0.1 s' >&2\nfor i in {1..300}; do sleep 0.1; done\n")
+        os.chmod(self.path("slow"), 0o755)
+        start = time.monotonic()
+        answers, said, told = self.follow([self.path("slow")], ["TIMER"] * 3 + ["ESC"])
+        self.assertEqual((answers[-1], said[-1]), ({"CANCELLED"}, ({"ERROR"}, "ended by hand")))
+        self.assertLess(time.monotonic() - start, 20)
+        self.assertTrue(all(abs(fraction - 1 / 9) < 1e-6 for fraction in told))
 
     def test_the_panel_draws(self):
         scene = self.start()
