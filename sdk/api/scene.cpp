@@ -18,14 +18,14 @@ Gaussian read_gaussian(const brume_gaussian *given, const std::string &name)
 {
     brume_gaussian read = BRUME_GAUSSIAN_INIT;
     read = read_struct(given, read, name.c_str(), &brume_gaussian::center, &brume_gaussian::scale,
-                       &brume_gaussian::amplitude, &brume_gaussian::colour, &brume_gaussian::reserved);
+                       &brume_gaussian::amplitude, &brume_gaussian::color, &brume_gaussian::reserved);
     if (read.reserved)
         expect(false, name + ".reserved", read.reserved, "0");
     Gaussian gaussian;
     std::copy_n(read.center, 3, gaussian.center.begin());
     gaussian.scale = read.scale;
     gaussian.amplitude = read.amplitude;
-    std::transform(read.colour, read.colour + 3, gaussian.colour.begin(), [](double x) { return float(x); });
+    std::transform(read.color, read.color + 3, gaussian.color.begin(), [](double x) { return float(x); });
     check_gaussian(gaussian, name);
     return gaussian;
 }

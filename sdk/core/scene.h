@@ -40,7 +40,7 @@ struct DensityTerm {
 struct GaussianTerm {
     Number3 center{};
     Number scale = 1.0, amplitude = 1.0;
-    Number3 colour{Number(1.0), Number(1.0), Number(1.0)};
+    Number3 color{Number(1.0), Number(1.0), Number(1.0)};
 };
 
 // Gaussians in bulk: from a file, one per frame if its name has a frame pattern, or from the C API. Plans share them.

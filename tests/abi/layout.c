@@ -78,7 +78,7 @@ FIELD(brume_gaussian, reserved, 4, 4);
 FIELD(brume_gaussian, center, 8, 24);
 FIELD(brume_gaussian, scale, 32, 8);
 FIELD(brume_gaussian, amplitude, 40, 8);
-FIELD(brume_gaussian, colour, 48, 24);
+FIELD(brume_gaussian, color, 48, 24);
 
 SIZE(brume_light, 256);
 FIELD(brume_light, struct_size, 0, 4);
@@ -241,7 +241,7 @@ FIELD(brume_media_paint, seed, 4, 4);
 FIELD(brume_media_paint, stroke, 8, 8);
 FIELD(brume_media_paint, scale, 16, 8);
 FIELD(brume_media_paint, amplitude, 24, 8);
-FIELD(brume_media_paint, colour, 32, 24);
+FIELD(brume_media_paint, color, 32, 24);
 FIELD(brume_media_paint, spacing, 56, 8);
 FIELD(brume_media_paint, jitter, 64, 8);
 
@@ -265,7 +265,7 @@ FIELD(brume_media_emitter, duration, 104, 8);
 FIELD(brume_media_emitter, lifetime, 112, 8);
 FIELD(brume_media_emitter, scale, 120, 16);
 FIELD(brume_media_emitter, amplitude, 136, 16);
-FIELD(brume_media_emitter, colour, 152, 24);
+FIELD(brume_media_emitter, color, 152, 24);
 
 SIZE(brume_media_airbrush, 144);
 FIELD(brume_media_airbrush, struct_size, 0, 4);
@@ -280,7 +280,7 @@ FIELD(brume_media_airbrush, rate, 88, 8);
 FIELD(brume_media_airbrush, duration, 96, 8);
 FIELD(brume_media_airbrush, scale, 104, 8);
 FIELD(brume_media_airbrush, amplitude, 112, 8);
-FIELD(brume_media_airbrush, colour, 120, 24);
+FIELD(brume_media_airbrush, color, 120, 24);
 
 #endif
 

@@ -24,7 +24,7 @@ FIELD(brume_plugin_camera, back, 80);
 SIZE(brume_plugin_gaussian, 32);
 FIELD(brume_plugin_gaussian, scale, 12);
 FIELD(brume_plugin_gaussian, amplitude, 16);
-FIELD(brume_plugin_gaussian, colour, 20);
+FIELD(brume_plugin_gaussian, color, 20);
 SIZE(brume_plugin_light, 128);
 FIELD(brume_plugin_light, radius, 12);
 FIELD(brume_plugin_light, direction, 16);

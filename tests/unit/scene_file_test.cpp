@@ -86,7 +86,7 @@ TEST(SceneFile, ReadsEverything)
     EXPECT_EQ(scene.medium->gaussians[0].center[2].at(1.5), 3.5);
     EXPECT_EQ(scene.medium->gaussians[0].scale.at(0), 0.5);
     EXPECT_EQ(scene.medium->gaussians[0].amplitude.at(1.5), 0.5);
-    EXPECT_EQ(scene.medium->gaussians[0].colour[1].at(0), 0.5);
+    EXPECT_EQ(scene.medium->gaussians[0].color[1].at(0), 0.5);
     ASSERT_EQ(scene.lights.size(), 3u);
     EXPECT_EQ(scene.lights[0].type, BRUME_LIGHT_POINT);
     EXPECT_EQ(scene.lights[0].position[1].at(0), 5.0);

@@ -262,7 +262,7 @@ typedef struct brume_gaussian {
   double center[3];   /* b, in scene units */
   double scale;       /* a [1/scene unit], > 0; its radius is 1/a */
   double amplitude;   /* c, ratio to unit density, >= 0; default 1 */
-  double colour[3];   /* RGB, 0 to 1; default 1. The share of what it would scatter that it does scatter; the rest is
+  double color[3];    /* RGB, 0 to 1; default 1. The share of what it would scatter that it does scatter; the rest is
                          absorbed, so that extinction does not depend on it. Read by airlight only. */
 } brume_gaussian;
 #define BRUME_GAUSSIAN_INIT {(uint32_t)sizeof(brume_gaussian), 0u, {0.0, 0.0, 0.0}, 1.0, 1.0, {1.0, 1.0, 1.0}}

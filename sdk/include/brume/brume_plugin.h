@@ -86,7 +86,7 @@ typedef struct brume_plugin_gaussian {
   float center[3];  /* camera space [m] */
   float scale;      /* a [1/m], > 0 */
   float amplitude;  /* c, ratio to unit density, >= 0 */
-  float colour[3];  /* share of what it scatters that is not absorbed after all, 0 to 1: tints airlight, not extinction */
+  float color[3];   /* share of what it scatters that is not absorbed after all, 0 to 1: tints airlight, not extinction */
 } brume_plugin_gaussian;
 
 /* A light. Its first 16 floats are four texels of product "lights". */
