@@ -10,7 +10,7 @@
         BRUME_CONSTANT_OF(Struct, airlight, dense_from), BRUME_CONSTANT_OF(Struct, airlight, cells),                       \
         BRUME_CONSTANT_OF(Struct, airlight, tolerance), BRUME_CONSTANT_OF(Struct, airlight, near_radii),                   \
         BRUME_CONSTANT_OF(Struct, airlight, culled), BRUME_CONSTANT_OF(Struct, airlight, orders),                          \
-        BRUME_CONSTANT_OF(Struct, airlight, ground), BRUME_CONSTANT_OF(Struct, airlight, shadowed)
+        BRUME_CONSTANT_OF(Struct, airlight, shadowed)
 
 namespace airlight {
 
@@ -19,5 +19,8 @@ int tier_of(const State &state);
 
 // How finely the tiers integrate a frame, from the error asked.
 brume::maths_float::AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene);
+
+// Where the planes around lamps come from.
+brume::maths_float::SurroundingsSettings surroundings_settings(const State &state, const brume_plugin_scene &scene);
 
 }  // namespace airlight

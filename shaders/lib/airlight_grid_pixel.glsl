@@ -2,9 +2,9 @@
 
 #define MAPPED_PIXEL_IMAGES sampler2D depth, sampler2D gaussian_density, sampler2D slices, sampler2D grid_density, \
                             sampler2D grid_lights, sampler2D lights, sampler2D environment, sampler2D environment_table, \
-                            SHADOW_MAP_IMAGES
+                            sampler2D surroundings, SHADOW_MAP_IMAGES
 #define MAPPED_PIXEL_PASSED depth, gaussian_density, slices, grid_density, grid_lights, lights, environment, environment_table, \
-                            SHADOW_MAP_PASSED
+                            surroundings, SHADOW_MAP_PASSED
 
 // estimate: 1 where the error is wanted.
 PURE Airlight mapped_airlight(int estimate, IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, IN(AirlightSettings) settings,

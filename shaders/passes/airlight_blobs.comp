@@ -16,6 +16,7 @@
 #include "octahedral.glsl"
 #include "shadow.glsl"
 #include "shadow_map.glsl"
+#include "surroundings.glsl"
 #include "airlight.glsl"
 #include "airlight_sun.glsl"
 #include "airlight_fogshop.glsl"

@@ -17,6 +17,7 @@
 #include "octahedral.glsl"
 #include "shadow.glsl"
 #include "shadow_map.glsl"
+#include "surroundings.glsl"
 #include "airlight.glsl"
 #include "airlight_parts.glsl"
 #include "lamp_field.glsl"
@@ -45,6 +46,7 @@ uniform sampler2D grid_lights;
 uniform sampler2D lights;
 uniform sampler2D environment;
 uniform sampler2D environment_table;
+uniform sampler2D surroundings;
 uniform sampler2D light_shadows;
 uniform sampler2D shadow_0;
 uniform sampler2D shadow_1;

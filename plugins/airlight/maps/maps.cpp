@@ -40,6 +40,7 @@ constexpr brume_slot gather_slots[] = {fetch("depth"),         fetch("gaussian_d
                                        fetch("slices"),        linear("grid_density"),
                                        linear("grid_lights"),  fetch("lights"),
                                        fetch("environment"),   fetch("environment_table"),
+                                       fetch("surroundings"),
                                        fetch("light_shadows"), fetch("shadow_0"),
                                        fetch("shadow_1"),      fetch("shadow_2"),
                                        fetch("shadow_3"),      fetch("previous"),
@@ -77,7 +78,7 @@ template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot 
 bool is_tinted(const brume_plugin_scene &scene)
 {
     return !scene.gaussians || std::any_of(scene.gaussians, scene.gaussians + scene.gaussian_count, [](const brume_plugin_gaussian &g) {
-        return g.colour[0] != 1 || g.colour[1] != 1 || g.colour[2] != 1;
+        return g.color[0] != 1 || g.color[1] != 1 || g.color[2] != 1;
     });
 }
 
@@ -126,12 +127,13 @@ bool maps_suit(const brume_plugin_request &request, const State &state)
 double mapped_operations(const brume_plugin_request &request, const State &state)
 {
     const maps::Sizes sizes = sizes_for(request, state);
-    const double lights = request.scene->light_count, gaussians = request.scene->gaussian_count,
+    // Orders beyond the first go pixel by pixel.
+    const double lights = request.scene->light_count * (state.parameters.orders == Orders::all ? 20 : 1), gaussians = request.scene->gaussian_count,
                  pixels = double(state.width) * state.height / (state.parameters.reduction * state.parameters.reduction),
                  side = maps::fineness_of(state.parameters.max_error).side, of_list = 40 * std::sqrt(1 + 0.1 * gaussians),
                  points = double(corners(state.width, sizes.cell)) * corners(state.height, sizes.cell);
     return pixels * sizes.slices * (8 + 6 * lights) + points * (sizes.slices * (4 + 6 * lights) + of_list) +
-           lights * side * side * of_list;
+           request.scene->light_count * side * side * of_list;
 }
 
 brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state)
@@ -341,6 +343,7 @@ brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, 
     images[slot::lights] = product(product_lights);
     images[slot::environment] = state_.environment;
     images[slot::environment_table] = state_.environment_table;
+    images[slot::surroundings] = state_.surroundings;
     images[slot::light_shadows] = product(product_light_shadows);
     for (uint32_t i = 0; i < most_shadow_maps; ++i)
         images[slot::shadow_0 + i] = state_.shadow_maps[i].image;

@@ -37,6 +37,7 @@ enum Slot {
     lights,
     environment,
     environment_table,
+    surroundings,
     light_shadows,
     shadow_0,
     shadow_1,

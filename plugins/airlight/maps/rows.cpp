@@ -41,6 +41,7 @@ brume_status gather_pixels(const brume_plugin_rows *call, int32_t first, int32_t
                   grid_lights = texture_of(slots[gather::grid_lights]), lights = texture_of(slots[gather::lights]),
                   environment = texture_of(slots[gather::environment]),
                   environment_table = texture_of(slots[gather::environment_table]),
+                  surroundings = texture_of(slots[gather::surroundings]),
                   light_shadows = texture_of(slots[gather::light_shadows]), shadow_0 = texture_of(slots[gather::shadow_0]),
                   shadow_1 = texture_of(slots[gather::shadow_1]), shadow_2 = texture_of(slots[gather::shadow_2]),
                   shadow_3 = texture_of(slots[gather::shadow_3]);

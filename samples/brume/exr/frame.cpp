@@ -138,6 +138,7 @@ InputLayer read_input(const ExrFile &file, const InputChoice &choice, const Part
         planes = &own;
     }
     InputLayer input{choice.role, int(choice.channels.size()), {}};
+    input.light = choice.light.value_or(0);
     const std::size_t stride = choice.channels.size(), count = std::size_t(part.width()) * std::size_t(part.height());
     input.pixels.resize(count * stride);
     for (std::size_t c = 0; c < stride; ++c)

@@ -14,6 +14,7 @@ struct InputChoice {
     int part = 0;
     std::vector<std::string> channels;
     std::string reason;
+    std::optional<std::uint32_t> light = {};  ///< whose it is, of layers of lights
 
     std::string label() const;
 };
@@ -21,6 +22,9 @@ struct InputChoice {
 /// The layer, channel or part that --input names. `color` is where it must share the view; null where it comes from a file
 /// of its own. Throws RequestError that lists the layers where none or several fit.
 InputChoice resolve_input(const ExrFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color);
+
+/// The layer that the scene's light names as its own share of the picture. Throws RequestError likewise.
+InputChoice resolve_group(const ExrFile &file, const std::string &wanted, std::uint32_t light, const ColorChoice &color);
 
 /// Whether some layers are taken for this role without being asked for.
 bool has_known_names(const std::string &role);
