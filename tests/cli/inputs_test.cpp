@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "exr/resolve_input.hpp"
+#include "image/resolve_input.hpp"
 #include "files.hpp"
 #include "support/error.hpp"
 
@@ -180,7 +180,7 @@ TEST_F(Inputs, WrongRequestsNameWhatThereIs)
     expect_refused({"--input", "optical_depth=tua"},
                    {"in.exr", "optical_depth=tua", "nearest is 'tau'", "tau.R,tau.G,tau.B"});
     expect_refused({"--input", "optical_depth"}, {"ROLE=LAYER"});
-    expect_refused({"--input", "optical_depth=fog.exr:"}, {"ROLE=FILE.exr:LAYER"});
+    expect_refused({"--input", "optical_depth=fog.exr:"}, {"ROLE=FILE:LAYER"});
     expect_refused({"--input", "optical_depth=" + (folder_ / "none.exr").string() + ":tau"}, {"none.exr", "no such file"});
     expect_refused({"--input", "optical_depth=tau", "--input", "optical_depth=Z"}, {"twice"});
     expect_refused({"--input", "optical_depth=tau", "--input", "transmittance=tau"}, {"optical_depth", "transmittance"});
@@ -246,7 +246,7 @@ protected:
         for (const std::string &name : names)
             channels.push_back({name});
         write_exr(folder_ / "a.exr", {{channels}});
-        const ExrFile file(folder_ / "a.exr");
+        const ImageFile file(folder_ / "a.exr");
         const auto choice = find_known_input(file, role, resolve_color(file, {}));
         return choice ? choice->label() : "";
     }

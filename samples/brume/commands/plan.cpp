@@ -39,8 +39,8 @@ int plan(const PlanOptions &options)
     fogger.learn_roles(open.file, open.color, first.frame);
     const std::vector<OpenInput> inputs = fogger.open_inputs(open.file, open.color, first.frame, {});
     fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs, first.frame);
-    const brume_plan plan = fogger.plan_for(
-        open.file, open.color, colors.luminance_weights(open.file.header(open.color.part)), roles_of(inputs), first.frame);
+    const brume_plan plan = fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.part(open.color.part)),
+                                            roles_of(inputs), first.frame);
     const Shot shot = fogger.shot_of(open.file, open.color, first.frame);
 
     brume_plan_info info = BRUME_PLAN_INFO_INIT;

@@ -20,7 +20,7 @@ constexpr std::size_t kMostPlans = 4;
 constexpr const char *kLightGroup = "light_group";
 
 /// As brume_quality.detail.
-double detail_of(const ExrFile &file, const ColorChoice &color)
+double detail_of(const ImageFile &file, const ColorChoice &color)
 {
     const PartInfo &part = file.parts()[color.part];
     Picture picture{0, 0, part.width(), part.height(), {}};
@@ -128,18 +128,29 @@ Fogger::Fogger(const FogOptions &options) : options_(options)
     output_layers_ = format_layers(outputs_);
     inputs_ = parse_inputs(context_.get(), options.inputs);
     load_calibration(context_.get());
+    take_scene(text);
+}
+
+void Fogger::change_scene(const std::string &text)
+{
+    plans_.clear();
+    take_scene({text, options_.scene, options_.set});
+}
+
+void Fogger::take_scene(const SceneText &text)
+{
     scene_ = make_scene(context_.get(), text);
     const brume_scene scene = scene_.get();
     brume_context_info context_info = BRUME_CONTEXT_INFO_INIT;
     check_request(context_.get(), brume_context_get_info(context_.get(), &context_info), "");
-    provenance_ = provenance_of(text, options, context_info.backend);
+    provenance_ = provenance_of(text, options_, context_info.backend);
     ask_for_quality();
-    scene_camera_ = CameraBlock::of_scene(text.text, options.scene);
-    check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
+    scene_camera_ = CameraBlock::of_scene(text.text, options_.scene);
+    check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options_.scene);
     for (const LayerOutput &output : outputs_)
         if (output.of_light && output.light >= scene_info_.light_count)
             throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected the number of one, from 0",
-                                           output.name, options.scene, scene_info_.light_count));
+                                           output.name, options_.scene, scene_info_.light_count));
 }
 
 void Fogger::ask_for_quality()
@@ -158,7 +169,7 @@ void Fogger::ask_for_quality()
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
+void Fogger::expect(const ImageFile &file, const ColorChoice &color, const ImageFile &depth_file, const DepthChoice &depth,
                     const std::vector<OpenInput> &inputs, int number)
 {
     brume_quality quality = BRUME_QUALITY_INIT;
@@ -168,7 +179,7 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
         return;
     const PartInfo &part = depth_file.parts()[depth.part];
     Shot shot = shot_of(file, color, number);
-    shot.format = format_of(part.data_window, depth_file.header(depth.part).displayWindow(), options_.picture);
+    shot.format = format_of(part.data_window, depth_file.part(depth.part).display_window, options_.picture);
     brume_layer wanted = layer_named("transmittance", nullptr);
     shot.format.outputs = &wanted;
     shot.format.output_count = 1;
@@ -188,7 +199,7 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     if (planned != BRUME_OK || brume_plan_get_info(made, &info) != BRUME_OK || info.does_nothing ||
         (info.camera_needs & ~shot.camera.given))
         return;
-    std::vector<float> distances = read_channel(depth_file, depth.part, depth.channel);
+    std::vector<float> distances = read_depth(depth_file, depth);
     options_.picture.depth_kind().convert(distances);
     std::vector<float> color_rgb(distances.size() * 3), transmittance(distances.size() * 3);
     const int width = part.width(), height = part.height();
@@ -218,7 +229,7 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color, int number) const
+Shot Fogger::shot_of(const ImageFile &file, const ColorChoice &color, int number) const
 {
     Shot shot = tool::shot_of(file, color, options_.picture, scene_camera_, number);
     shot.format.outputs = output_layers_.data();
@@ -226,7 +237,7 @@ Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color, int number) 
     return shot;
 }
 
-void Fogger::learn_roles(const ExrFile &file, const ColorChoice &color, int number)
+void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int number)
 {
     std::vector<std::string> roles = tool::known_roles(context_.get());
     const std::vector<LightGroup> groups = scene_groups();
@@ -275,13 +286,13 @@ std::vector<LightGroup> Fogger::scene_groups() const
     return groups;
 }
 
-std::vector<OpenInput> Fogger::open_inputs(const ExrFile &file, const ColorChoice &color, int number,
+std::vector<OpenInput> Fogger::open_inputs(const ImageFile &file, const ColorChoice &color, int number,
                                            const ReadLimits &limits) const
 {
     return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, limits);
 }
 
-brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+brume_plan Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
                             const std::vector<std::string> &roles, int number)
 {
     Shot shot = shot_of(file, color, number);

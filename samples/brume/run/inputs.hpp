@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "exr/file.hpp"
-#include "exr/resolve_input.hpp"
+#include "image/file.hpp"
+#include "image/resolve_input.hpp"
 #include "run/sdk.hpp"
 
 namespace CLI {
@@ -39,12 +39,12 @@ struct LightGroup {
 /// A layer to be given to the library, and the file it is in where that is not the picture's.
 struct OpenInput {
     InputChoice choice;
-    std::optional<ExrFile> file;
+    std::optional<ImageFile> file;
 };
 
 /// What was asked for, the scene's groups, and of `known` roles what the picture's file has. Throws FrameError for files
 /// that cannot be read, RequestError where layers cannot be resolved.
-std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int frame,
+std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int frame,
                                    const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
                                    const std::vector<LightGroup> &groups, const ReadLimits &limits);
 

@@ -1,4 +1,4 @@
-#include "exr/depth_window.hpp"
+#include "image/depth_window.hpp"
 
 #include <cmath>
 
@@ -9,19 +9,19 @@
 namespace brume::tool {
 namespace {
 
-double width(const Imath::Box2i &w)
+double width(const Window &w)
 {
     return double(w.max.x) - w.min.x + 1;
 }
 
-double height(const Imath::Box2i &w)
+double height(const Window &w)
 {
     return double(w.max.y) - w.min.y + 1;
 }
 
 /// A crop has some size and place of its own; the same share of both sides, from the scaled corner, is no chance. Very small
 /// windows are what writers put where nothing was hit.
-bool is_scaled(const Imath::Box2i &from, const Imath::Box2i &to)
+bool is_scaled(const Window &from, const Window &to)
 {
     const double x = width(to) / width(from), y = height(to) / height(from);
     const auto about = [](double a, double b) { return std::abs(a - b) <= 1; };
@@ -30,20 +30,21 @@ bool is_scaled(const Imath::Box2i &from, const Imath::Box2i &to)
            about(to.min.y, from.min.y * y);
 }
 
-std::string text(const Imath::Box2i &w)
+std::string text(const Window &w)
 {
     return fmt::format("{:.0f} x {:.0f} at ({}, {})", width(w), height(w), w.min.x, w.min.y);
 }
 
 }  // namespace
 
-void check_depth_window(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth)
+void check_depth_window(const ImageFile &file, const ColorChoice &color, const ImageFile &depth_file,
+                        const DepthChoice &depth)
 {
-    const Imf::Header &picture = file.header(color.part), &other = depth_file.header(depth.part);
-    const Imath::Box2i &a = picture.dataWindow(), &b = other.dataWindow();
+    const PartInfo &picture = file.part(color.part), &other = depth_file.part(depth.part);
+    const Window &a = picture.data_window, &b = other.data_window;
     if (a == b)
         return;
-    const Imath::Box2i &display = picture.displayWindow(), &other_display = other.displayWindow();
+    const Window &display = picture.display_window, &other_display = other.display_window;
     if (display == other_display && !is_scaled(a, b))
         return;
     throw RequestError(fmt::format(

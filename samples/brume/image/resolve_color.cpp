@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "exr/narrow.hpp"
-#include "exr/resolve.hpp"
+#include "image/narrow.hpp"
+#include "image/resolve.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -35,7 +35,7 @@ std::vector<Candidate> candidates_in(const PartInfo &part)
     for (const auto &[group, bases] : groups) {
         const auto full_size = [&](const char *base) {
             const auto at = bases.find(base);
-            return at != bases.end() && at->second->sampling == Imath::V2i(1, 1) && at->second->type != Imf::UINT;
+            return at != bases.end() && at->second->sampling == kFullSize && at->second->type != SampleType::kUint;
         };
         Candidate candidate;
         candidate.deep = part.deep;
@@ -77,7 +77,7 @@ bool part_is(const PartInfo &part, const std::string &wanted)
     return part.name == wanted || std::to_string(part.index) == wanted;
 }
 
-std::string list(const ExrFile &file, const std::vector<Candidate> &candidates)
+std::string list(const ImageFile &file, const std::vector<Candidate> &candidates)
 {
     std::string text;
     for (const Candidate &c : candidates)
@@ -87,7 +87,7 @@ std::string list(const ExrFile &file, const std::vector<Candidate> &candidates)
 }
 
 /// What stands in the way of taking the picture for a colour, where its channels' names say that it is one.
-std::string why_none(const ExrFile &file)
+std::string why_none(const ImageFile &file)
 {
     for (const PartInfo &part : file.parts())
         for (const ChannelInfo &c : part.channels) {
@@ -97,15 +97,15 @@ std::string why_none(const ExrFile &file)
             if (base != "r" && base != "g" && base != "b" && base != "y" && base != "red" && base != "green" &&
                 base != "blue")
                 continue;
-            if (c.sampling != Imath::V2i(1, 1))
+            if (c.sampling != kFullSize)
                 return fmt::format("; '{}' is subsampled {} x {}", c.name, c.sampling.x, c.sampling.y);
-            if (c.type == Imf::UINT)
+            if (c.type == SampleType::kUint)
                 return fmt::format("; '{}' is of type uint", c.name);
         }
     return "";
 }
 
-std::string all_channels(const ExrFile &file)
+std::string all_channels(const ImageFile &file)
 {
     constexpr std::size_t kShown = 24;
     std::vector<std::string> names;
@@ -127,7 +127,7 @@ std::string ColorChoice::label() const
     return fmt::format("{},{},{}{}{}", rgb[0], rgb[1], rgb[2], alpha.empty() ? "" : "," + alpha, in_view);
 }
 
-std::vector<std::string> other_views(const ExrFile &file, const ColorChoice &color)
+std::vector<std::string> other_views(const ImageFile &file, const ColorChoice &color)
 {
     std::vector<std::string> views;
     for (const PartInfo &part : file.parts())
@@ -138,7 +138,7 @@ std::vector<std::string> other_views(const ExrFile &file, const ColorChoice &col
     return views;
 }
 
-ColorChoice resolve_color(const ExrFile &file, const LayerRequest &request)
+ColorChoice resolve_color(const ImageFile &file, const LayerRequest &request)
 {
     std::vector<Candidate> candidates;
     for (const PartInfo &part : file.parts())

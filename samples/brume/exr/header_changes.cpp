@@ -1,4 +1,4 @@
-#include "compare/header_changes.hpp"
+#include "exr/header_changes.hpp"
 
 #include <map>
 
@@ -16,7 +16,8 @@
 #include <ImfVersion.h>
 #include <fmt/format.h>
 
-#include "exr/write.hpp"
+#include "exr/file.hpp"
+#include "image/write.hpp"
 #include "support/text.hpp"
 
 namespace brume::tool {
@@ -109,27 +110,32 @@ void compare_headers(const Imf::Header &a, const Imf::Header &b, const std::stri
     compare_texts(of_a, of_b, part + "attribute", lines);
 }
 
-std::string provenance_of(const ExrFile &file)
+std::string provenance_of(const ImageFile &file)
 {
-    for (const PartInfo &part : file.parts())
-        if (const auto *text = file.header(part.index).findTypedAttribute<Imf::StringAttribute>(kProvenance))
+    const ExrSource *exr = exr_of(file);
+    for (std::size_t part = 0; exr && part < exr->parts.size(); ++part)
+        if (const auto *text = exr->header(int(part)).findTypedAttribute<Imf::StringAttribute>(kProvenance))
             return fmt::format("\"{}\"", printable(text->value()));
     return "";
 }
 
 }  // namespace
 
-std::vector<std::string> header_changes(const ExrFile &a, const ExrFile &b)
+std::vector<std::string> header_changes(const ImageFile &a, const ImageFile &b)
 {
     std::vector<std::string> lines;
-    if (a.parts().size() != b.parts().size())
-        lines.push_back(fmt::format("{} parts, was {}", a.parts().size(), b.parts().size()));
-    for (std::size_t i = 0; i < std::min(a.parts().size(), b.parts().size()); ++i)
-        compare_headers(a.header(int(i)), b.header(int(i)), a.parts().size() > 1 ? fmt::format("part {}: ", i) : "", lines);
+    const ExrSource *exr_a = exr_of(a), *exr_b = exr_of(b);
+    if (!exr_a || !exr_b)
+        return lines;
+    const std::size_t parts_a = exr_a->parts.size(), parts_b = exr_b->parts.size();
+    if (parts_a != parts_b)
+        lines.push_back(fmt::format("{} parts, was {}", parts_a, parts_b));
+    for (std::size_t i = 0; i < std::min(parts_a, parts_b); ++i)
+        compare_headers(exr_a->header(int(i)), exr_b->header(int(i)), parts_a > 1 ? fmt::format("part {}: ", i) : "", lines);
     return lines;
 }
 
-std::string provenance_note(const ExrFile &a, const ExrFile &b)
+std::string provenance_note(const ImageFile &a, const ImageFile &b)
 {
     const std::string of_a = provenance_of(a), of_b = provenance_of(b);
     if (of_a == of_b)

@@ -1,11 +1,11 @@
-#include "exr/resolve_input.hpp"
+#include "image/resolve_input.hpp"
 
 #include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "exr/narrow.hpp"
+#include "image/narrow.hpp"
 #include "support/error.hpp"
 #include "support/nearest.hpp"
 
@@ -31,7 +31,7 @@ struct Candidate {
 };
 
 /// Three channels that belong together, or the one that a layer has.
-std::vector<Candidate> layers_in(const ExrFile &file)
+std::vector<Candidate> layers_in(const ImageFile &file)
 {
     std::vector<Candidate> found;
     for (const PartInfo &part : file.parts()) {
@@ -61,7 +61,7 @@ std::string prefix_of(const ChannelInfo &c)
     return dot == std::string::npos ? "" : c.name.substr(0, dot);
 }
 
-std::vector<Candidate> named(const ExrFile &file, const std::string &wanted, const std::vector<Candidate> &layers)
+std::vector<Candidate> named(const ImageFile &file, const std::string &wanted, const std::vector<Candidate> &layers)
 {
     std::vector<Candidate> found;
     for (const PartInfo &part : file.parts())
@@ -85,7 +85,7 @@ std::string label_of(const Candidate &c)
     return fmt::format("{}", fmt::join(names, ","));
 }
 
-std::string list(const ExrFile &file, const std::vector<Candidate> &candidates)
+std::string list(const ImageFile &file, const std::vector<Candidate> &candidates)
 {
     std::vector<std::string> lines;
     for (const Candidate &c : candidates)
@@ -97,7 +97,7 @@ std::string list(const ExrFile &file, const std::vector<Candidate> &candidates)
 bool is_whole(const Candidate &c)
 {
     return !c.part->deep && std::all_of(c.channels.begin(), c.channels.end(),
-                                        [](const ChannelInfo *channel) { return channel->sampling == Imath::V2i(1, 1); });
+                                        [](const ChannelInfo *channel) { return channel->sampling == kFullSize; });
 }
 
 bool is_known(const Candidate &c, const std::string &role)
@@ -110,7 +110,7 @@ bool is_known(const Candidate &c, const std::string &role)
     });
 }
 
-void narrow_to_picture(std::vector<Candidate> &found, const ExrFile &file, const ColorChoice *color)
+void narrow_to_picture(std::vector<Candidate> &found, const ImageFile &file, const ColorChoice *color)
 {
     if (found.size() > 1)
         narrow(found, [&](const Candidate &c) { return c.view == (color ? color->view : file.default_view()); });
@@ -136,7 +136,7 @@ std::string InputChoice::label() const
 namespace {
 
 /// asked: what names the layer, with its value.
-InputChoice resolved(const ExrFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color,
+InputChoice resolved(const ImageFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color,
                      const std::string &asked, const std::string &reason)
 {
     const std::vector<Candidate> layers = layers_in(file);
@@ -166,12 +166,12 @@ InputChoice resolved(const ExrFile &file, const std::string &role, const std::st
 
 }  // namespace
 
-InputChoice resolve_input(const ExrFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color)
+InputChoice resolve_input(const ImageFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color)
 {
     return resolved(file, role, wanted, color, fmt::format("--input {}={}", role, wanted), "as asked by --input");
 }
 
-InputChoice resolve_group(const ExrFile &file, const std::string &wanted, std::uint32_t light, const ColorChoice &color)
+InputChoice resolve_group(const ImageFile &file, const std::string &wanted, std::uint32_t light, const ColorChoice &color)
 {
     const std::string asked = fmt::format("lights[{}].group", light);
     InputChoice choice =
@@ -186,7 +186,7 @@ bool has_known_names(const std::string &role)
                        [&](const KnownName &known) { return role == known.role; });
 }
 
-std::optional<InputChoice> find_known_input(const ExrFile &file, const std::string &role, const ColorChoice &color)
+std::optional<InputChoice> find_known_input(const ImageFile &file, const std::string &role, const ColorChoice &color)
 {
     std::vector<Candidate> found = layers_in(file);
     std::erase_if(found, [&](const Candidate &c) { return !is_whole(c) || !is_known(c, role); });

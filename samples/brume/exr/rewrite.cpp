@@ -1,4 +1,4 @@
-#include "exr/write.hpp"
+#include "exr/rewrite.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -21,8 +21,6 @@
 #include <ImfTiledInputPart.h>
 #include <ImfTiledOutputPart.h>
 #include <fmt/format.h>
-#include <half.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "exr/output_stream.hpp"
 #include "exr/planes.hpp"
@@ -40,7 +38,11 @@ std::string view_prefix(const Frame &frame)
                : frame.color.view + ".";
 }
 
-constexpr float kHalfMax = 65504.0f;
+/// What was read, in files of OpenEXR's.
+const std::vector<Plane> &stored_planes(const Frame &frame)
+{
+    return dynamic_cast<const ExrPixels &>(*frame.stored).planes;
+}
 
 /// Of a converted colour.
 constexpr const char *kSpaceAttributes[] = {"chromaticities", "acesImageContainerFlag", "adoptedNeutral", "colorInteropID",
@@ -53,7 +55,7 @@ float largest_of(const Imf::Header &header, const ChannelInfo &channel)
     const bool dwa = header.compression() == Imf::DWAA_COMPRESSION || header.compression() == Imf::DWAB_COMPRESSION;
     if (dwa && is_lossy_for(header.compression(), channel))
         return kHalfMax * std::exp(-0.02f - 0.001f * header.dwaCompressionLevel());
-    return channel.type == Imf::HALF ? kHalfMax : std::numeric_limits<float>::max();
+    return largest_finite(channel.type);
 }
 
 /// The library codes at its default unless it is told what it has read.
@@ -67,53 +69,29 @@ void keep_dwa_level(Imf::Header &header)
 constexpr const char *kStaleAttributes[] = {"preview", "oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor",
                                             "SHA-1",   "md5",        "checksum"};
 
-Plane from_floats(const ChannelInfo &channel, float largest, const float *in, std::size_t count, std::size_t stride,
-                  std::atomic<std::uint64_t> &clamped)
-{
-    Plane plane{channel, std::make_unique_for_overwrite<char[]>(count * pixel_bytes(channel.type)),
-                pixel_bytes(channel.type)};
-    oneapi::tbb::parallel_for(std::size_t(0), (count + kGrain - 1) / kGrain, [&](std::size_t block) {
-        const std::size_t from = block * kGrain, to = std::min(count, from + kGrain);
-        std::uint64_t over = 0;
-        const auto fill = [&](auto *out) {
-            for (std::size_t i = from; i < to; ++i) {
-                const float value = in[i * stride];
-                const bool too_large = std::isfinite(value) && std::abs(value) > largest;
-                over += too_large;
-                out[i] = too_large ? std::copysign(largest, value) : value;
-            }
-        };
-        if (channel.type == Imf::FLOAT)
-            fill(reinterpret_cast<float *>(plane.bytes.get()));
-        else
-            fill(reinterpret_cast<half *>(plane.bytes.get()));
-        clamped += over;
-    });
-    return plane;
-}
-
 /// The colour's planes hold what came in; these hold what goes out in their place, and the added layers.
-std::vector<Plane> outgoing_planes(const Frame &frame, const std::vector<AddedLayer> &layers, std::uint64_t &clamped_out)
+std::vector<Plane> outgoing_planes(const Frame &frame, const ExrSource &exr, const std::vector<AddedLayer> &layers,
+                                   std::uint64_t &clamped_out)
 {
     std::atomic<std::uint64_t> clamped{0};
     const std::size_t count = std::size_t(frame.width) * std::size_t(frame.height);
-    Imf::Header header = frame.file.header(frame.color.part);
+    Imf::Header header = exr.header(frame.color.part);
     keep_dwa_level(header);
     const auto channel = [&](const std::string &name) { return *frame.part().find(name); };
     std::vector<Plane> planes;
     for (std::size_t i = 0; i < (frame.color.luminance ? 1u : 3u); ++i) {
         const ChannelInfo info = channel(frame.color.rgb[i]);
-        planes.push_back(from_floats(info, largest_of(header, info), frame.pixels.data() + i, count,
-                                     std::size_t(frame.channels), clamped));
+        planes.push_back(plane_of_floats(info, largest_of(header, info), frame.pixels.data() + i, count,
+                                         std::size_t(frame.channels), clamped));
     }
 
     const std::string view = view_prefix(frame);
     for (const AddedLayer &layer : layers)
         for (int c = 0; c < layer.channels; ++c) {
             const std::string base = layer.channels == 1 ? "Y" : std::string(1, "RGB"[c]);
-            ChannelInfo info{fmt::format("brume.{}.{}{}", layer.name, view, base), "", "", base, layer.type, {1, 1}};
-            planes.push_back(from_floats(info, largest_of(header, info), layer.pixels.data() + c, count,
-                                         std::size_t(layer.channels), clamped));
+            ChannelInfo info{fmt::format("brume.{}.{}{}", layer.name, view, base), "", "", base, layer.type, kFullSize};
+            planes.push_back(plane_of_floats(info, largest_of(header, info), layer.pixels.data() + c, count,
+                                             std::size_t(layer.channels), clamped));
         }
     clamped_out = clamped;
     return planes;
@@ -140,10 +118,10 @@ Imf::ChannelList without_own_layers(const Imf::ChannelList &channels, const std:
     return kept;
 }
 
-Imf::Header header_of_rewritten(const Frame &frame, const std::vector<Plane> &outgoing, const WriteOptions &options,
-                                std::vector<std::string> &warnings)
+Imf::Header header_of_rewritten(const Frame &frame, const ExrSource &exr, const std::vector<Plane> &outgoing,
+                                const WriteOptions &options, std::vector<std::string> &warnings)
 {
-    Imf::Header header = frame.file.header(frame.color.part);
+    Imf::Header header = exr.header(frame.color.part);
     keep_dwa_level(header);
     for (const char *name : kStaleAttributes)
         header.erase(name);
@@ -153,12 +131,12 @@ Imf::Header header_of_rewritten(const Frame &frame, const std::vector<Plane> &ou
             header.erase(name);
     for (const Plane &plane : outgoing)
         if (!header.channels().findChannel(plane.channel.name) || plane.channel.name.starts_with("brume."))
-            header.channels().insert(plane.channel.name, Imf::Channel(plane.channel.type));
+            header.channels().insert(plane.channel.name, Imf::Channel(exr_type(plane.channel.type)));
     if (frame.part().tiled && header.tileDescription().mode != Imf::ONE_LEVEL) {
         header.tileDescription().mode = Imf::ONE_LEVEL;
         warnings.push_back("mipmap levels are not kept: they would show the picture without fog");
     }
-    for (const Plane &plane : frame.planes)
+    for (const Plane &plane : stored_planes(frame))
         if (!find_plane(outgoing, plane.channel.name) && is_lossy_for(header.compression(), plane.channel)) {
             warnings.push_back(
                 fmt::format("channels beside the colour, {} among them, are stored with a lossy compression and lose "
@@ -173,7 +151,7 @@ void write_pixels(Imf::MultiPartOutputFile &file, const Frame &frame, const std:
 {
     const PartInfo &part = frame.part();
     Imf::FrameBuffer buffer;
-    for (const Plane &plane : frame.planes)
+    for (const Plane &plane : stored_planes(frame))
         if (!find_plane(outgoing, plane.channel.name))
             buffer.insert(plane.channel.name, slice_of(plane, part.data_window));
     for (const Plane &plane : outgoing)
@@ -189,13 +167,13 @@ void write_pixels(Imf::MultiPartOutputFile &file, const Frame &frame, const std:
     }
 }
 
-template <class Input, class Output> void copy_as(const ExrFile &from, Imf::MultiPartOutputFile &to, int part)
+template <class Input, class Output> void copy_as(const ExrSource &from, Imf::MultiPartOutputFile &to, int part)
 {
     Input input(from.imf(), part);
     Output(to, part).copyPixels(input);
 }
 
-void copy_undecoded(const ExrFile &from, Imf::MultiPartOutputFile &to, const PartInfo &part)
+void copy_undecoded(const ExrSource &from, Imf::MultiPartOutputFile &to, const PartInfo &part)
 {
     from.guarded(fmt::format("copying {}", part.label()), [&] {
         if (part.deep && part.tiled)
@@ -211,15 +189,17 @@ void copy_undecoded(const ExrFile &from, Imf::MultiPartOutputFile &to, const Par
 
 }  // namespace
 
-WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layers, const std::filesystem::path &output,
+WriteReport rewrite_exr(const Frame &frame, const std::vector<AddedLayer> &layers, const std::filesystem::path &output,
                         const WriteOptions &options)
 {
+    const ExrSource &exr = *exr_of(frame.file);
     WriteReport report;
-    const Imf::Header &old = frame.file.header(frame.color.part);
-    const bool copied = options.untouched && without_own_layers(old.channels(), view_prefix(frame)) == old.channels();
+    const Imf::Header &old = exr.header(frame.color.part);
+    const bool copied =
+        options.untouched && !options.decoded && without_own_layers(old.channels(), view_prefix(frame)) == old.channels();
     std::vector<Plane> outgoing;
     if (!copied)
-        outgoing = outgoing_planes(frame, layers, report.clamped);
+        outgoing = outgoing_planes(frame, exr, layers, report.clamped);
     if (report.clamped > 0)
         report.warnings.push_back(
             fmt::format("{} values clamped to what stays finite in half, as it is stored (at most 65504)", report.clamped));
@@ -232,8 +212,8 @@ WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layer
     std::vector<Imf::Header> headers;
     for (const PartInfo &part : frame.file.parts()) {
         const bool rewritten = part.index == frame.color.part && !copied;
-        headers.push_back(rewritten ? header_of_rewritten(frame, outgoing, options, report.warnings)
-                                    : frame.file.header(part.index));
+        headers.push_back(rewritten ? header_of_rewritten(frame, exr, outgoing, options, report.warnings)
+                                    : exr.header(part.index));
         keep_dwa_level(headers.back());
         if (part.index == frame.color.part) {
             headers.back().erase(kProvenance);
@@ -243,7 +223,8 @@ WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layer
         if (options.primaries_changed)
             headers.back().erase("chromaticities");
         if (options.primaries_changed && options.chromaticities && alone)
-            Imf::addChromaticities(headers.back(), *options.chromaticities);
+            Imf::addChromaticities(headers.back(), {options.chromaticities->red, options.chromaticities->green,
+                                                    options.chromaticities->blue, options.chromaticities->white});
     }
 
     PendingFile pending(output);
@@ -254,7 +235,7 @@ WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layer
             if (part.index == frame.color.part && !copied)
                 write_pixels(file, frame, outgoing);
             else
-                copy_undecoded(frame.file, file, part);
+                copy_undecoded(exr, file, part);
     } catch (const FrameError &) {
         throw;
     } catch (const std::exception &e) {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "exr/narrow.hpp"
-#include "exr/resolve.hpp"
+#include "image/narrow.hpp"
+#include "image/resolve.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -77,10 +77,10 @@ bool is_conceivable(const PartInfo &part, const ChannelInfo &c)
 
 bool is_usable(const PartInfo &part, const ChannelInfo &c)
 {
-    return !part.deep && c.sampling == Imath::V2i(1, 1);
+    return !part.deep && c.sampling == kFullSize;
 }
 
-template <class Wanted> std::vector<Candidate> gather(const ExrFile &file, Wanted wanted)
+template <class Wanted> std::vector<Candidate> gather(const ImageFile &file, Wanted wanted)
 {
     std::vector<Candidate> found;
     for (const PartInfo &part : file.parts())
@@ -99,7 +99,7 @@ std::string list(const std::vector<Candidate> &candidates, bool several_parts)
     return lines.empty() ? "none" : fmt::format("{}", fmt::join(lines, "; "));
 }
 
-std::vector<Candidate> by_request(const ExrFile &file, const std::string &wanted)
+std::vector<Candidate> by_request(const ImageFile &file, const std::string &wanted)
 {
     auto found = gather(file, [&](const PartInfo &part, const ChannelInfo &c) {
         return c.name == wanted || (!part.name.empty() && part.name + "." + c.name == wanted);
@@ -116,7 +116,7 @@ std::vector<Candidate> by_request(const ExrFile &file, const std::string &wanted
 
 }  // namespace
 
-std::optional<DepthChoice> find_depth(const ExrFile &file, const LayerRequest &request, const ColorChoice *color,
+std::optional<DepthChoice> find_depth(const ImageFile &file, const LayerRequest &request, const ColorChoice *color,
                                       std::string *why_not)
 {
     const bool several_parts = file.parts().size() > 1;
@@ -154,9 +154,14 @@ std::optional<DepthChoice> find_depth(const ExrFile &file, const LayerRequest &r
                 return refuse(fmt::format("no depth in the colour's view '{}'", color->view));
             }
         }
+        // A file that was named as depth's own and has one channel.
+        if (found.empty() && !color && file.parts().size() == 1 && file.part(0).channels.size() == 1) {
+            found = gather(file, [](const PartInfo &p, const ChannelInfo &c) { return is_usable(p, c); });
+            reason = "its only channel";
+        }
         if (found.empty())
             for (const auto &[part, channel] : gather(file, [](const PartInfo &p, const ChannelInfo &c) {
-                     return !p.deep && c.sampling != Imath::V2i(1, 1) && (is_root_z(p, c) || has_known_name(p, c));
+                     return !p.deep && c.sampling != kFullSize && (is_root_z(p, c) || has_known_name(p, c));
                  }))
                 return refuse(fmt::format("depth '{}' is subsampled {} x {} (expected full resolution)", channel->name,
                                           channel->sampling.x, channel->sampling.y));
@@ -178,13 +183,13 @@ std::optional<DepthChoice> find_depth(const ExrFile &file, const LayerRequest &r
     if (part->deep)
         return refuse(
             fmt::format("depth '{}' in {} is deep data (expected flat scan lines or tiles)", channel->name, part->label()));
-    if (channel->sampling != Imath::V2i(1, 1))
+    if (channel->sampling != kFullSize)
         return refuse(fmt::format("depth '{}' is subsampled {} x {} (expected full resolution)", channel->name,
                                   channel->sampling.x, channel->sampling.y));
     return DepthChoice{part->index, channel->name, reason};
 }
 
-DepthChoice resolve_depth(const ExrFile &file, const LayerRequest &request, const ColorChoice *color)
+DepthChoice resolve_depth(const ImageFile &file, const LayerRequest &request, const ColorChoice *color)
 {
     std::string why_not;
     auto choice = find_depth(file, request, color, &why_not);

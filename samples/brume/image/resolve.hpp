@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "exr/file.hpp"
+#include "image/file.hpp"
 
 namespace brume::tool {
 
@@ -29,19 +29,20 @@ struct DepthChoice {
     int part = 0;
     std::string channel;
     std::string reason;
+    double scale = 1;  ///< stored numbers times this are scene units
 };
 
 /// Layers are found by name, never by index. Throws RequestError that lists the candidates when none or several fit.
-ColorChoice resolve_color(const ExrFile &file, const LayerRequest &request);
+ColorChoice resolve_color(const ImageFile &file, const LayerRequest &request);
 
 /// Other views that have the same layer.
-std::vector<std::string> other_views(const ExrFile &file, const ColorChoice &color);
+std::vector<std::string> other_views(const ImageFile &file, const ColorChoice &color);
 
 /// `color` is where depth must share the view; null when depth comes from a file of its own.
-DepthChoice resolve_depth(const ExrFile &file, const LayerRequest &request, const ColorChoice *color);
+DepthChoice resolve_depth(const ImageFile &file, const LayerRequest &request, const ColorChoice *color);
 
 /// The same, but nothing and the reason rather than an error where the file has no depth.
-std::optional<DepthChoice> find_depth(const ExrFile &file, const LayerRequest &request, const ColorChoice *color,
+std::optional<DepthChoice> find_depth(const ImageFile &file, const LayerRequest &request, const ColorChoice *color,
                                       std::string *why_not);
 
 }  // namespace brume::tool
