@@ -32,6 +32,7 @@ int main(int argc, char **argv)
     add_effects(app, chosen);
     add_schema(app, chosen);
     add_sheet(app, chosen);
+    add_stats(app, chosen);
     add_media(app, chosen);
     try {
         app.parse(argc, argv);

@@ -160,7 +160,7 @@ brume_status brume_media_get_gaussians(brume_media handle, uint32_t first, uint3
         for (uint32_t i = 0; i < count; ++i, bytes += stride) {
             const Gaussian &g = history.state().gaussians[first + i];
             const brume_gaussian gaussian{stride,  0,           {g.center[0], g.center[1], g.center[2]},
-                                          g.scale, g.amplitude, {g.colour[0], g.colour[1], g.colour[2]}};
+                                          g.scale, g.amplitude, {g.color[0], g.color[1], g.color[2]}};
             std::memcpy(bytes, &gaussian, std::min<size_t>(stride, sizeof gaussian));
         }
     });
@@ -202,11 +202,11 @@ brume_status brume_media_apply_paint(brume_media handle, const brume_media_paint
     return with_media(handle, [&](media::History &history) {
         brume_media_paint paint = BRUME_MEDIA_PAINT_INIT;
         paint = read_struct(given, paint, "brume_media_paint", &brume_media_paint::seed, &brume_media_paint::stroke,
-                            &brume_media_paint::scale, &brume_media_paint::amplitude, &brume_media_paint::colour,
+                            &brume_media_paint::scale, &brume_media_paint::amplitude, &brume_media_paint::color,
                             &brume_media_paint::spacing, &brume_media_paint::jitter);
         Stroke stroke = read_stroke(paint.stroke);
         history.apply(media::Paint{paint.seed, std::move(stroke.points), stroke.normal, paint.scale, paint.amplitude,
-                                   vector(paint.colour), paint.spacing, paint.jitter});
+                                   vector(paint.color), paint.spacing, paint.jitter});
     });
 }
 
@@ -229,7 +229,7 @@ brume_status brume_media_apply_emit(brume_media handle, const brume_media_emitte
                         &brume_media_emitter::radius, &brume_media_emitter::velocity, &brume_media_emitter::spread,
                         &brume_media_emitter::acceleration, &brume_media_emitter::rate, &brume_media_emitter::duration,
                         &brume_media_emitter::lifetime, &brume_media_emitter::scale, &brume_media_emitter::amplitude,
-                        &brume_media_emitter::colour);
+                        &brume_media_emitter::color);
         history.apply(media::Emit{e.seed,
                                   vector(e.position),
                                   e.radius,
@@ -241,7 +241,7 @@ brume_status brume_media_apply_emit(brume_media handle, const brume_media_emitte
                                   e.lifetime,
                                   {e.scale[0], e.scale[1]},
                                   {e.amplitude[0], e.amplitude[1]},
-                                  vector(e.colour),
+                                  vector(e.color),
                                   time});
     });
 }
@@ -254,12 +254,12 @@ brume_status brume_media_apply_airbrush(brume_media handle, const brume_media_ai
                         &brume_media_airbrush::position, &brume_media_airbrush::velocity, &brume_media_airbrush::spread,
                         &brume_media_airbrush::drag, &brume_media_airbrush::diffusion, &brume_media_airbrush::rate,
                         &brume_media_airbrush::duration, &brume_media_airbrush::scale, &brume_media_airbrush::amplitude,
-                        &brume_media_airbrush::colour);
+                        &brume_media_airbrush::color);
         Screen view;
         if (a.view)
             view = read_view(a.view, true);
         history.apply(media::Airbrush{a.seed, vector(a.position), vector(a.velocity), a.spread, a.drag, a.diffusion, a.rate,
-                                      a.duration, a.scale, a.amplitude, vector(a.colour), view.lens,
+                                      a.duration, a.scale, a.amplitude, vector(a.color), view.lens,
                                       shared_depth(history, view.depth)});
     });
 }

@@ -8,7 +8,7 @@ struct Gaussian {
     std::array<double, 3> center{};
     double scale = 1.0;      // a [1/scene unit], > 0
     double amplitude = 1.0;  // c, ratio to unit density, >= 0
-    std::array<float, 3> colour{1.0f, 1.0f, 1.0f};
+    std::array<float, 3> color{1.0f, 1.0f, 1.0f};
 };
 
 }  // namespace brume

@@ -96,7 +96,7 @@ bool GaussianColumns::take(Gaussian &gaussian, size_t column, double value) cons
     else if (field == amplitude)
         gaussian.amplitude = value;
     else
-        gaussian.colour[field - red] = float(value);
+        gaussian.color[field - red] = float(value);
     return true;
 }
 

@@ -117,8 +117,8 @@ std::string gaussian_csv(std::span<const Gaussian> gaussians)
     std::string text = "x,y,z,scale,amplitude,r,g,b\n";
     for (const Gaussian &gaussian : gaussians)
         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", gaussian.center[0], gaussian.center[1],
-                       gaussian.center[2], gaussian.scale, gaussian.amplitude, gaussian.colour[0], gaussian.colour[1],
-                       gaussian.colour[2]);
+                       gaussian.center[2], gaussian.scale, gaussian.amplitude, gaussian.color[0], gaussian.color[1],
+                       gaussian.color[2]);
     return text;
 }
 

@@ -289,7 +289,7 @@ std::string gaussian_ply(std::span<const Gaussian> gaussians)
             append(coordinate);
         append(gaussian.scale);
         append(gaussian.amplitude);
-        for (float component : gaussian.colour)
+        for (float component : gaussian.color)
             append(component);
     }
     return content;

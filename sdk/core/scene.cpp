@@ -33,7 +33,7 @@ bool animated(const DensityTerm &term)
 
 bool animated(const GaussianTerm &term)
 {
-    return any_animated(term.center) || term.scale.animated() || term.amplitude.animated() || any_animated(term.colour);
+    return any_animated(term.center) || term.scale.animated() || term.amplitude.animated() || any_animated(term.color);
 }
 
 bool animated(const GaussianSet &set)

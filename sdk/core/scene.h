@@ -40,7 +40,7 @@ struct DensityTerm {
 struct GaussianTerm {
     Number3 center{};
     Number scale = 1.0, amplitude = 1.0;
-    Number3 colour{Number(1.0), Number(1.0), Number(1.0)};
+    Number3 color{Number(1.0), Number(1.0), Number(1.0)};
 };
 
 // Gaussians in bulk: from a file, one per frame if its name has a frame pattern, or from the C API. Plans share them.
@@ -89,6 +89,8 @@ struct Light {
     Number penumbra = 0.1;
     Number distance = 0.0;  // scene units
     LightShadow shadow{};
+    uint32_t surfaces = BRUME_SURFACES_LIT;
+    std::string group{};  // layer of the light's own share of pictures, named by the scene's text
 };
 
 // Distant light as real spherical harmonics in world axes.

@@ -95,12 +95,12 @@ void check_gaussian(const Gaussian &gaussian, const std::string &name)
     const auto within = [](const auto &values, const Range &range) {
         return std::all_of(values.begin(), values.end(), [&](double x) { return range.contains(x); });
     };
-    if (within(gaussian.center, ranges::any) && within(gaussian.colour, ranges::fraction) &&
+    if (within(gaussian.center, ranges::any) && within(gaussian.color, ranges::fraction) &&
         ranges::positive.contains(gaussian.scale) && ranges::not_negative.contains(gaussian.amplitude))
         return;
     for (size_t i = 0; i < 3; ++i) {
         check(gaussian.center[i], ranges::any, fmt::format("{}.center[{}]", name, i));
-        check(double(gaussian.colour[i]), ranges::fraction, fmt::format("{}.colour[{}]", name, i));
+        check(double(gaussian.color[i]), ranges::fraction, fmt::format("{}.color[{}]", name, i));
     }
     check(gaussian.scale, ranges::positive, name + ".scale");
     check(gaussian.amplitude, ranges::not_negative, name + ".amplitude");
@@ -136,6 +136,8 @@ void check_shadow(const Light &light, const std::string &name)
 void check_light(const Light &light, const std::string &name)
 {
     check_shadow(light, name);
+    if (light.surfaces > BRUME_SURFACES_UNLIT)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name, light.surfaces));
     if (light.type > BRUME_LIGHT_DIRECTIONAL)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
     check(light.intensity, ranges::not_negative, name + ".intensity");

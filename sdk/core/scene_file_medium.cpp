@@ -43,7 +43,7 @@ GaussianTerm read_gaussian(const JsonNode &node)
     if (const auto amplitude = node.find("amplitude"))
         term.amplitude = read_number(*amplitude, ranges::not_negative);
     if (const auto colour = node.find("colour"))
-        term.colour = read_rgb(*colour, ranges::fraction);
+        term.color = read_rgb(*colour, ranges::fraction);
     return term;
 }
 

@@ -24,7 +24,7 @@ public:
         const std::array<double, 3> center = pose_.seen(gaussian.center);
         for (size_t i = 0; i < 3; ++i) {
             to.center[i] = float(std::clamp(center[i], -largest, largest));
-            to.colour[i] = gaussian.colour[i];
+            to.color[i] = gaussian.color[i];
         }
         to.scale = float(std::clamp(gaussian.scale / pose_.metres_per_unit, smallest, largest));
         to.amplitude = c;
@@ -41,9 +41,9 @@ Gaussian evaluate(const GaussianTerm &term, const FrameValues &values, const Val
     gaussian.center = values.get(term.center, ranges::any, name.of(".center"));
     gaussian.scale = values.get(term.scale, ranges::positive, name.of(".scale"));
     gaussian.amplitude = values.get(term.amplitude, ranges::not_negative, name.of(".amplitude"));
-    const std::array<double, 3> colour = values.get(term.colour, ranges::fraction, name.of(".colour"));
+    const std::array<double, 3> color = values.get(term.color, ranges::fraction, name.of(".colour"));
     for (size_t i = 0; i < 3; ++i)
-        gaussian.colour[i] = float(colour[i]);
+        gaussian.color[i] = float(color[i]);
     return gaussian;
 }
 

@@ -78,9 +78,9 @@ FIELD(brume_gaussian, reserved, 4, 4);
 FIELD(brume_gaussian, center, 8, 24);
 FIELD(brume_gaussian, scale, 32, 8);
 FIELD(brume_gaussian, amplitude, 40, 8);
-FIELD(brume_gaussian, colour, 48, 24);
+FIELD(brume_gaussian, color, 48, 24);
 
-SIZE(brume_light, 256);
+SIZE(brume_light, 264);
 FIELD(brume_light, struct_size, 0, 4);
 FIELD(brume_light, type, 4, 4);
 FIELD(brume_light, position, 8, 24);
@@ -94,6 +94,8 @@ FIELD(brume_light, shadow_kind, 112, 4);
 FIELD(brume_light, shadow_depth, 116, 4);
 FIELD(brume_light, shadow_extent, 120, 8);
 FIELD(brume_light, shadow_to_world, 128, 128);
+FIELD(brume_light, surfaces, 256, 4);
+FIELD(brume_light, reserved, 260, 4);
 
 SIZE(brume_medium, 168);
 FIELD(brume_medium, struct_size, 0, 4);
@@ -241,7 +243,7 @@ FIELD(brume_media_paint, seed, 4, 4);
 FIELD(brume_media_paint, stroke, 8, 8);
 FIELD(brume_media_paint, scale, 16, 8);
 FIELD(brume_media_paint, amplitude, 24, 8);
-FIELD(brume_media_paint, colour, 32, 24);
+FIELD(brume_media_paint, color, 32, 24);
 FIELD(brume_media_paint, spacing, 56, 8);
 FIELD(brume_media_paint, jitter, 64, 8);
 
@@ -265,7 +267,7 @@ FIELD(brume_media_emitter, duration, 104, 8);
 FIELD(brume_media_emitter, lifetime, 112, 8);
 FIELD(brume_media_emitter, scale, 120, 16);
 FIELD(brume_media_emitter, amplitude, 136, 16);
-FIELD(brume_media_emitter, colour, 152, 24);
+FIELD(brume_media_emitter, color, 152, 24);
 
 SIZE(brume_media_airbrush, 144);
 FIELD(brume_media_airbrush, struct_size, 0, 4);
@@ -280,7 +282,7 @@ FIELD(brume_media_airbrush, rate, 88, 8);
 FIELD(brume_media_airbrush, duration, 96, 8);
 FIELD(brume_media_airbrush, scale, 104, 8);
 FIELD(brume_media_airbrush, amplitude, 112, 8);
-FIELD(brume_media_airbrush, colour, 120, 24);
+FIELD(brume_media_airbrush, color, 120, 24);
 
 #endif
 

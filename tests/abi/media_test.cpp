@@ -71,7 +71,7 @@ TEST_F(MediaAbi, GaussiansGoInAndOut)
     for (size_t i = 0; i < in.size(); ++i) {
         in[i].gaussian.struct_size = sizeof(Wide);
         in[i].gaussian.center[1] = 0.1 * double(i);
-        in[i].gaussian.colour[2] = 0.5;
+        in[i].gaussian.color[2] = 0.5;
         in[i].gaussian.amplitude = double(i);
     }
     ASSERT_EQ(brume_media_put(media, &in[0].gaussian, 3), BRUME_OK) << message(context.get());
@@ -81,7 +81,7 @@ TEST_F(MediaAbi, GaussiansGoInAndOut)
         EXPECT_EQ(out[i].struct_size, sizeof(brume_gaussian));
         EXPECT_EQ(out[i].center[1], 0.1 * double(i));
         EXPECT_EQ(out[i].amplitude, double(i));
-        EXPECT_EQ(out[i].colour[2], 0.5);
+        EXPECT_EQ(out[i].color[2], 0.5);
     }
     std::vector<Wide> wide(2, Wide{BRUME_GAUSSIAN_INIT, 7});
     wide[0].gaussian.struct_size = sizeof(Wide);

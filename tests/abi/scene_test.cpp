@@ -110,7 +110,7 @@ TEST_F(SceneCalls, GaussiansRefuseNonsense)
         {[](auto &, auto &g) { g.scale = 0; }, "gaussians[1].scale: 0"},
         {[](auto &, auto &g) { g.amplitude = -1; }, "gaussians[1].amplitude: -1"},
         {[](auto &, auto &g) { g.amplitude = INFINITY; }, "gaussians[1].amplitude: inf"},
-        {[](auto &, auto &g) { g.colour[1] = 1.5; }, "gaussians[1].colour[1]: 1.5"},
+        {[](auto &, auto &g) { g.color[1] = 1.5; }, "gaussians[1].color[1]: 1.5"},
         {[](auto &, auto &g) { g.struct_size = 0; }, "gaussians[1].struct_size: 0"},
     };
     for (const Case &c : cases) {

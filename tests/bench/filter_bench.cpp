@@ -149,7 +149,7 @@ int main(int argc, char **argv)
                            (info.backend == BRUME_BACKEND_CPU ? ", " + std::to_string(info.threads) + " threads)" : ")");
         bool slow = name.find("llvmpipe") != std::string::npos || info.backend == BRUME_BACKEND_CPU;
         for (auto [width, height] : {std::pair(1280, 720), {1920, 1080}, {3840, 2160}}) {
-            if (quick && width > 1920)
+            if (quick && slow && width > 1920)
                 continue;
             Frame frame = make_frame(width, height);
             for (const Variant &v : variants()) {

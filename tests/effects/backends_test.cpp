@@ -1,5 +1,6 @@
 // GPU against CPU.
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -97,16 +98,32 @@ TEST(GpuAgainstCpu, WholeFilterWithinItsBound)
 }
 #endif
 
+// Every effect and kernel by itself, with what makes it gather from neighbours.
 TEST(Threads, AnyNumberGivesTheSameBits)
 {
-    Frame f = random_frame(123, 77, 3);
-    auto one = run(Context(BRUME_BACKEND_CPU, 1), scene(media[0], "\"separation\":true"), f.color, f.depth);
-    for (uint32_t threads : {2u, 7u}) {
-        auto many = run(Context(BRUME_BACKEND_CPU, threads), scene(media[0], "\"separation\":true"), f.color, f.depth);
-        EXPECT_EQ(one.output.data, many.output.data) << threads;
+    const Frame f = random_frame(123, 77, 3);
+    const std::string lights =
+        ",\"lights\":[{\"type\":\"point\",\"position\":[1,2,-9],\"intensity\":[90,60,30],\"radius\":0.1},"
+        "{\"type\":\"point\",\"position\":[-3,1,-20],\"intensity\":200}]";
+    const std::pair<const char *, std::string> effects[] = {
+        {"calibrated", "\"multiscatter\":{\"kernel\":\"calibrated\"}"},
+        {"calibrated, reduced",
+         "\"multiscatter\":{\"kernel\":\"calibrated\",\"resolution\":\"quarter\",\"lobes\":\"third\"}"},
+        {"paper", "\"multiscatter\":{\"kernel\":\"paper\",\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\"}"},
+        {"paper, separated", "\"multiscatter\":{\"kernel\":\"paper\",\"separation\":true}"},
+        {"airlight", "\"airlight\":{\"orders\":\"all\"}"},
+        {"airlight, reduced", "\"airlight\":{\"resolution\":\"half\"}"},
+        {"surface", "\"surface\":{}"}};
+    const Context one(BRUME_BACKEND_CPU, 1), two(BRUME_BACKEND_CPU, 2), seven(BRUME_BACKEND_CPU, 7);
+    std::set<std::vector<float>> pictures{f.color.data};
+    for (const auto &[name, effect] : effects) {
+        std::string text = scene(media[0]);
+        text.replace(text.find(",\"effects\""), std::string::npos, lights + ",\"effects\":{" + effect + "}}");
+        const Picture alone = run(one, text, f.color, f.depth).output;
+        EXPECT_TRUE(pictures.insert(alone.data).second) << name << " changes nothing, or as another does";
+        for (const Context *many : {&two, &seven, &seven})
+            EXPECT_EQ(run(*many, text, f.color, f.depth).output.data, alone.data) << name;
     }
-    auto again = run(cpu(), scene(media[0], "\"separation\":true"), f.color, f.depth);
-    EXPECT_EQ(one.output.data, again.output.data);
 }
 
 #ifdef BRUME_GL

@@ -71,7 +71,7 @@ void expect_same(const std::vector<Gaussian> &a, const std::vector<Gaussian> &b)
         EXPECT_EQ(a[i].center, b[i].center) << i;
         EXPECT_EQ(a[i].scale, b[i].scale) << i;
         EXPECT_EQ(a[i].amplitude, b[i].amplitude) << i;
-        EXPECT_EQ(a[i].colour, b[i].colour) << i;
+        EXPECT_EQ(a[i].color, b[i].color) << i;
     }
 }
 
@@ -125,13 +125,13 @@ TEST(GaussianCsv, ReadsWhatPeopleWrite)
     EXPECT_EQ(gaussians[0].center, (std::array<double, 3>{1, 2, 3}));
     EXPECT_EQ(gaussians[0].scale, 2);
     EXPECT_EQ(gaussians[0].amplitude, 0.25);
-    EXPECT_EQ(gaussians[0].colour, (std::array<float, 3>{0, 0.5f, 1}));
+    EXPECT_EQ(gaussians[0].color, (std::array<float, 3>{0, 0.5f, 1}));
     EXPECT_EQ(gaussians[1].center, (std::array<double, 3>{4, 5, 6}));
     EXPECT_EQ(gaussians[1].scale, 0.5);
     const auto plain = parse_gaussian_csv("x,y,z,scale,amplitude\n1,2,3,4,5\n", "puffs.csv");
     ASSERT_EQ(plain.size(), 1u);
     EXPECT_EQ(plain[0].scale, 4);
-    EXPECT_EQ(plain[0].colour, (std::array<float, 3>{1, 1, 1}));
+    EXPECT_EQ(plain[0].color, (std::array<float, 3>{1, 1, 1}));
 }
 
 TEST(GaussianCsv, SaysWhatIsWrongAndWhere)
@@ -176,7 +176,7 @@ TEST(GaussianPly, ReadsOtherProgramsFiles)
     EXPECT_EQ(text[0].center, (std::array<double, 3>{1, 2, 3}));
     EXPECT_EQ(text[0].scale, 2);
     EXPECT_EQ(text[0].amplitude, 7);
-    EXPECT_EQ(text[0].colour, (std::array<float, 3>{1, 0, 0.2f}));
+    EXPECT_EQ(text[0].color, (std::array<float, 3>{1, 0, 0.2f}));
     EXPECT_EQ(text[1].scale, 0.5);
 
     std::string bytes = "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"

@@ -36,7 +36,7 @@ bool same_bits(const std::vector<Gaussian> &a, const std::vector<Gaussian> &b)
 {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Gaussian &x, const Gaussian &y) {
         return std::memcmp(&x.center, &y.center, sizeof x.center) == 0 && x.scale == y.scale && x.amplitude == y.amplitude &&
-               std::memcmp(&x.colour, &y.colour, sizeof x.colour) == 0;
+               std::memcmp(&x.color, &y.color, sizeof x.color) == 0;
     });
 }
 
@@ -77,7 +77,7 @@ Paint stroke(std::vector<dvec3> points)
     paint.points = std::move(points);
     paint.scale = 2;
     paint.amplitude = 0.7;
-    paint.colour = {1, 0.5, 0.25};
+    paint.color = {1, 0.5, 0.25};
     return paint;
 }
 
@@ -152,7 +152,7 @@ TEST(MediaPaint, KeepsItsDistances)
         EXPECT_NEAR(glm::distance(center(gaussians[i]), on_stroke), 0, 1e-12) << i;
         EXPECT_EQ(gaussians[i].scale, 2);
         EXPECT_EQ(gaussians[i].amplitude, 0.7);
-        EXPECT_EQ(gaussians[i].colour, (std::array<float, 3>{1, 0.5f, 0.25f}));
+        EXPECT_EQ(gaussians[i].color, (std::array<float, 3>{1, 0.5f, 0.25f}));
         EXPECT_EQ(history.state().selected[i], 0);
     }
     paint.spacing = 6;
@@ -443,7 +443,7 @@ std::vector<Operation> everything()
 {
     Put put = grid();
     put.gaussians[0].center = {-0.0, 1.0 / 3, 1e-300 * 0 + std::numbers::pi};
-    put.gaussians[1].colour = {0.1f, 1.0f / 3, 0};
+    put.gaussians[1].color = {0.1f, 1.0f / 3, 0};
     Erase erase;
     erase.points = {{0.1, 0.2, -4}, {1.0 / 7, -2, -4}};
     erase.radius = 1.1;
@@ -536,6 +536,12 @@ TEST(MediaHistory, AFailureChangesNothing)
                   history.apply(paint);
               }),
               "paint.scale: 0; expected a number from 1e-30 to 1e+30");
+    EXPECT_EQ(failure([&] {
+                  Paint paint = stroke({{0, 0, 0}});
+                  paint.color[2] = -0.5;
+                  history.apply(paint);
+              }),
+              "paint.color[2]: -0.5; expected a number from 0 to 1");
     EXPECT_EQ(failure([&] { history.apply(stroke({})); }), "paint.points: 0 of them; expected 1 to 65536");
     EXPECT_NE(failure([&] {
                   history.apply(stroke({{0, 0, 0}, {NAN, 0, 0}}));
@@ -602,6 +608,7 @@ TEST(MediaJournal, ReplaysToTheSameBits)
     const std::string text = journal_of(history);
     // The header, the room's depth once, the operations, the undos.
     EXPECT_EQ(size_t(std::count(text.begin(), text.end(), '\n')), 1 + 1 + everything().size() + 3);
+    EXPECT_NE(text.find("\"colour\":[1,0.5,0.25]"), std::string::npos) << "the key that journals of 0.1 have";
     History copy;
     replay(copy, text, "journal");
     expect_same(copy.state(), history.state());

@@ -86,7 +86,7 @@ TEST(SceneFile, ReadsEverything)
     EXPECT_EQ(scene.medium->gaussians[0].center[2].at(1.5), 3.5);
     EXPECT_EQ(scene.medium->gaussians[0].scale.at(0), 0.5);
     EXPECT_EQ(scene.medium->gaussians[0].amplitude.at(1.5), 0.5);
-    EXPECT_EQ(scene.medium->gaussians[0].colour[1].at(0), 0.5);
+    EXPECT_EQ(scene.medium->gaussians[0].color[1].at(0), 0.5);
     ASSERT_EQ(scene.lights.size(), 3u);
     EXPECT_EQ(scene.lights[0].type, BRUME_LIGHT_POINT);
     EXPECT_EQ(scene.lights[0].position[1].at(0), 5.0);
@@ -233,9 +233,14 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("lights": [{"type": "lamp"}])", R"(2:21: lights[0].type: "lamp"; expected "point", "spot" or "directional")"},
         {R"("lights": [{"type": "point", "position": [0,0,0]}])", R"(2:12: lights[0]: has no "intensity"; expected one)"},
         {R"("lights": [{"type": "point", "direction": [0,0,1]}])",
-         R"(2:30: unknown key "direction"; expected one of type, intensity, position, radius, shadow)"},
+         R"(2:30: unknown key "direction"; expected one of type, intensity, position, radius, shadow, surfaces, group)"},
         {R"("lights": [{"type": "spot", "position": [0,0,0], "direction": [0,0,1], "intensity": 1, "angle": 181}])",
          "2:97: lights[0].angle: 181; expected a number from 0 to 180"},
+        {R"("lights": [{"type": "point", "position": [0,0,0], "intensity": 1, "surfaces": 1}])", "2:79: lights[0].surfaces: 1; expected true or false"},
+        {R"("lights": [{"type": "point", "position": [0,0,0], "intensity": 1, "surfaces": false, "group": "L0"}])",
+         R"(2:95: lights[0].group: "L0"; expected no group, since surfaces is false)"},
+        {R"("lights": [{"type": "point", "position": [0,0,0], "intensity": 1, "group": "L0"}, {"type": "point", "position": [0,0,0], "intensity": 1, "group": "L0"}])",
+         R"(2:147: lights[1].group: "L0"; expected a group of its own: lights[0] has this one)"},
         {R"("environment": {})", R"(2:16: environment: has no "sh"; expected one)"},
         {R"("environment": {"sh": [[1,1,1]], "file": "sky.exr"})",
          R"(2:34: "file" beside "sh"; expected one of them: they say the same thing)"},

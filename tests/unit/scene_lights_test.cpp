@@ -154,7 +154,7 @@ TEST(EvaluateGaussians, AreSeenFromTheCameraInMetres)
     term.center = numbers(1e7 + 2, -2e7 + 4, 3e7 + 6);
     term.scale = 3.0;
     term.amplitude = 0.25;
-    term.colour = numbers(0.5, 1, 0);
+    term.color = numbers(0.5, 1, 0);
     Scene scene = with_gaussians({term});
     scene.metres_per_unit = 0.5;
     scene.medium->gaussian_sets.push_back(fixed_set({{{1e7, -2e7, 3e7 + 2}, 1.0, 2.0}, {{0, 0, 0}, 1.0, 0.0}}));
@@ -165,7 +165,7 @@ TEST(EvaluateGaussians, AreSeenFromTheCameraInMetres)
     expect_vector(gaussians[0].center, 2, 3, 1);
     EXPECT_EQ(gaussians[0].scale, 6.0f);
     EXPECT_EQ(gaussians[0].amplitude, 0.25f);
-    expect_vector(gaussians[0].colour, 0.5, 1, 0);
+    expect_vector(gaussians[0].color, 0.5, 1, 0);
     expect_vector(gaussians[1].center, 0, 1, 0);
     EXPECT_EQ(gaussians[1].scale, 2.0f);
     EXPECT_EQ(gaussians[1].amplitude, 3.0f);

@@ -23,7 +23,7 @@ int paint(const PaintOptions &options)
     brume_media_paint paint = BRUME_MEDIA_PAINT_INIT;
     paint.seed = options.brush.seed;
     paint.stroke = stroke.get();
-    options.brush.take(paint.scale, paint.amplitude, paint.colour);
+    options.brush.take(paint.scale, paint.amplitude, paint.color);
     paint.spacing = options.spacing;
     paint.jitter = options.jitter;
     const Document document(options.file, Document::kIsEmpty);

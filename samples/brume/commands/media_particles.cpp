@@ -14,7 +14,7 @@ namespace brume::tool {
 namespace {
 
 struct EmitOptions {
-    std::string file, position, velocity, acceleration, colour, scale, amplitude, frames;
+    std::string file, position, velocity, acceleration, color, scale, amplitude, frames;
     double time = 0, fps = 24;
     brume_media_emitter emitter = BRUME_MEDIA_EMITTER_INIT;
 };
@@ -34,7 +34,7 @@ int emit(const EmitOptions &options)
     take_triple(options.position, "--position", emitter.position);
     take_triple(options.velocity, "--velocity", emitter.velocity);
     take_triple(options.acceleration, "--acceleration", emitter.acceleration);
-    take_triple(options.colour, "--colour", emitter.colour);
+    take_triple(options.color, "--colour", emitter.color);
     take_pair(options.scale, "--scale", emitter.scale);
     take_pair(options.amplitude, "--amplitude", emitter.amplitude);
     const FilePattern pattern(options.file);
@@ -68,7 +68,7 @@ int airbrush(const AirbrushOptions &options)
 {
     brume_media_airbrush airbrush = options.airbrush;
     airbrush.seed = options.brush.seed;
-    options.brush.take(airbrush.scale, airbrush.amplitude, airbrush.colour);
+    options.brush.take(airbrush.scale, airbrush.amplitude, airbrush.color);
     take_triple(options.position, "--position", airbrush.position);
     take_triple(options.velocity, "--velocity", airbrush.velocity);
     std::optional<ViewOptions::Loaded> view;
@@ -111,7 +111,7 @@ void add_media_particles(CLI::App &media, Action &chosen)
         ->type_name("A,A");
     command->add_option("--amplitude", emitting->amplitude, "Density at the centre, at birth and at the end (default: 1,0)")
         ->type_name("C,C");
-    command->add_option("--colour", emitting->colour, "Share of the light met that is scattered (default: 1,1,1)")
+    command->add_option("--colour", emitting->color, "Share of the light met that is scattered (default: 1,1,1)")
         ->type_name("R,G,B");
     command->add_option("--seed", emitter.seed, "Of all chance")->capture_default_str();
     command->callback([&chosen, emitting] { chosen = [emitting] { return emit(*emitting); }; });

@@ -61,7 +61,7 @@ int plan(const PlanOptions &options)
     }
     ordered_json given = ordered_json::object();
     for (const OpenInput &input : inputs)
-        given[input.choice.role] = description(input);
+        given[name_of(input)] = description(input);
     const ordered_json out{
         {"scene", options.fog.scene},
         {"lights", fogger.scene_info().light_count},
@@ -91,7 +91,7 @@ int plan(const PlanOptions &options)
     fmt::print("{} x {} pixels on {} ({})\n", part.width(), part.height(), backend_name(device.backend), device.device);
     fmt::print("colour {}; depth {}\n", open.color.label(), open.depth.channel);
     for (const OpenInput &input : inputs)
-        fmt::print("input {} from {}\n", input.choice.role, printable(description(input)));
+        fmt::print("input {} from {}\n", name_of(input), printable(description(input)));
     fmt::print("{} lights; {} Gaussians; {} coefficients of the environment\n", out["lights"].get<int>(),
                out["gaussians"].get<int>(), out["environment"].get<int>());
     for (const auto &e : entries) {

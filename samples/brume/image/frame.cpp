@@ -83,6 +83,7 @@ InputLayer read_input(const ImageFile &file, const InputChoice &choice, const Pa
         stored = own.get();
     }
     InputLayer input{choice.role, int(choice.channels.size()), {}};
+    input.light = choice.light.value_or(0);
     const std::size_t stride = choice.channels.size(), count = std::size_t(part.width()) * std::size_t(part.height());
     input.pixels.resize(count * stride);
     for (std::size_t c = 0; c < stride; ++c) {

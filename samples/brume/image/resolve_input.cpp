@@ -133,15 +133,17 @@ std::string InputChoice::label() const
     return fmt::format("{}", fmt::join(channels, ","));
 }
 
-InputChoice resolve_input(const ImageFile &file, const std::string &role, const std::string &wanted,
-                          const ColorChoice *color)
+namespace {
+
+/// asked: what names the layer, with its value.
+InputChoice resolved(const ImageFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color,
+                     const std::string &asked, const std::string &reason)
 {
     const std::vector<Candidate> layers = layers_in(file);
     std::vector<Candidate> found = named(file, wanted, layers);
     narrow_to_picture(found, file, color);
     const auto fail = [&](const std::string &what, const std::vector<Candidate> &candidates) {
-        throw RequestError(
-            fmt::format("{}: --input {}={}: {}: {}", file.path().string(), role, wanted, what, list(file, candidates)));
+        throw RequestError(fmt::format("{}: {}: {}: {}", file.path().string(), asked, what, list(file, candidates)));
     };
     if (found.empty()) {
         std::vector<std::string> names;
@@ -159,7 +161,23 @@ InputChoice resolve_input(const ImageFile &file, const std::string &role, const 
         fail("deep data (expected flat scan lines or tiles)", found);
     if (!is_whole(c))
         fail("subsampled (expected full resolution)", found);
-    return choice_of(c, role, "as asked by --input");
+    return choice_of(c, role, reason);
+}
+
+}  // namespace
+
+InputChoice resolve_input(const ImageFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color)
+{
+    return resolved(file, role, wanted, color, fmt::format("--input {}={}", role, wanted), "as asked by --input");
+}
+
+InputChoice resolve_group(const ImageFile &file, const std::string &wanted, std::uint32_t light, const ColorChoice &color)
+{
+    const std::string asked = fmt::format("lights[{}].group", light);
+    InputChoice choice =
+        resolved(file, "light_group", wanted, &color, fmt::format("{} \"{}\"", asked, wanted), "the scene's " + asked);
+    choice.light = light;
+    return choice;
 }
 
 bool has_known_names(const std::string &role)

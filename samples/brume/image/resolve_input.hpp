@@ -14,6 +14,7 @@ struct InputChoice {
     int part = 0;
     std::vector<std::string> channels;
     std::string reason;
+    std::optional<std::uint32_t> light = {};  ///< whose it is, of layers of lights
 
     std::string label() const;
 };
@@ -22,6 +23,9 @@ struct InputChoice {
 /// of its own. Throws RequestError that lists the layers where none or several fit.
 InputChoice resolve_input(const ImageFile &file, const std::string &role, const std::string &wanted,
                           const ColorChoice *color);
+
+/// The layer that the scene's light names as its own share of the picture. Throws RequestError likewise.
+InputChoice resolve_group(const ImageFile &file, const std::string &wanted, std::uint32_t light, const ColorChoice &color);
 
 /// Whether some layers are taken for this role without being asked for.
 bool has_known_names(const std::string &role);

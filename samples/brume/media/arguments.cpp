@@ -174,7 +174,7 @@ void BrushOptions::add_to(CLI::App &command)
         ->excludes(as_scale);
     command.add_option("--amplitude", amplitude, "Density at their centres, as a ratio to unit density")
         ->capture_default_str();
-    command.add_option("--colour", colour, "Share of the light met that they scatter (default: 1,1,1)")->type_name("R,G,B");
+    command.add_option("--colour", color, "Share of the light met that they scatter (default: 1,1,1)")->type_name("R,G,B");
     command.add_option("--seed", seed, "Of all chance")->capture_default_str();
 }
 
@@ -182,7 +182,7 @@ void BrushOptions::take(double &to_scale, double &to_amplitude, double (&to_colo
 {
     to_scale = radius > 0 ? 1 / radius : scale;
     to_amplitude = amplitude;
-    take_triple(colour, "--colour", to_colour);
+    take_triple(color, "--colour", to_colour);
 }
 
 }  // namespace brume::tool

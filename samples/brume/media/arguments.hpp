@@ -79,7 +79,7 @@ private:
 /// What the Gaussians of a brush are like.
 struct BrushOptions {
     double scale = 1, radius = 0, amplitude = 1;
-    std::string colour;
+    std::string color;
     std::uint32_t seed = 0;
 
     void add_to(CLI::App &command);

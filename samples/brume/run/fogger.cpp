@@ -17,6 +17,8 @@ namespace {
 /// A plan holds its images; a sequence with a moving data window meets a new format with every frame.
 constexpr std::size_t kMostPlans = 4;
 
+constexpr const char *kLightGroup = "light_group";
+
 /// As brume_quality.detail.
 double detail_of(const ImageFile &file, const ColorChoice &color)
 {
@@ -49,6 +51,7 @@ public:
             // Inputs are only read.
             images_.push_back(host_image(const_cast<float *>(input.pixels.data()), width, height, input.channels));
             layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
+            layers_.back().light = input.light;
         }
     }
     void give_to(brume_frame &frame) const
@@ -236,7 +239,10 @@ Shot Fogger::shot_of(const ImageFile &file, const ColorChoice &color, int number
 
 void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int number)
 {
-    const std::vector<std::string> roles = tool::known_roles(context_.get());
+    std::vector<std::string> roles = tool::known_roles(context_.get());
+    const std::vector<LightGroup> groups = scene_groups();
+    if (!groups.empty())
+        roles.push_back(kLightGroup);
     if (roles.empty())
         return;
     // Which effects run is the library's to say, so it is asked with all of the roles.
@@ -252,21 +258,38 @@ void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int nu
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     check_request(context_.get(), brume_plan_get_info(made, &info), "plan");
     known_roles_.clear();
+    groups_.clear();
     for (const std::string &role : roles)
         for (std::uint32_t i = 0; i < info.entry_count; ++i) {
             brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
             check_request(context_.get(), brume_plan_get_entry(made, i, &entry), "plan");
             if (entry.runs && reads_layer(context_.get(), entry.effect, role)) {
-                known_roles_.push_back(role);
+                if (role == kLightGroup)
+                    groups_ = groups;
+                else
+                    known_roles_.push_back(role);
                 break;
             }
         }
 }
 
+std::vector<LightGroup> Fogger::scene_groups() const
+{
+    std::vector<LightGroup> groups;
+    for (std::uint32_t light = 0; light < scene_info_.light_count; ++light) {
+        std::string name(brume_scene_light_group(scene_.get(), light, nullptr, 0), '\0');
+        if (name.size() <= 1)
+            continue;
+        brume_scene_light_group(scene_.get(), light, name.data(), name.size());
+        groups.push_back({light, name.c_str()});
+    }
+    return groups;
+}
+
 std::vector<OpenInput> Fogger::open_inputs(const ImageFile &file, const ColorChoice &color, int number,
                                            const ReadLimits &limits) const
 {
-    return tool::open_inputs(file, color, number, inputs_, known_roles_, limits);
+    return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, limits);
 }
 
 brume_plan Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
@@ -327,7 +350,8 @@ FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights,
 try {
     std::vector<std::string> roles;
     for (const InputLayer &input : frame.inputs)
-        roles.push_back(input.role);
+        if (std::find(roles.begin(), roles.end(), input.role) == roles.end())
+            roles.push_back(input.role);
     const brume_plan plan = plan_for(frame.file, frame.color, weights, roles, number);
     const Shot shot = shot_of(frame.file, frame.color, number);
     const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);

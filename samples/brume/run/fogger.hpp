@@ -79,6 +79,7 @@ public:
 private:
     void take_scene(const SceneText &text);
     void ask_for_quality();
+    std::vector<LightGroup> scene_groups() const;
     void take_uncovered_light(brume_plan plan, brume_frame call, Frame &frame) const;
 
     FogOptions options_;
@@ -91,6 +92,7 @@ private:
     std::vector<brume_layer> output_layers_;  ///< of `outputs_`, as formats have them
     std::vector<InputRequest> inputs_;
     std::vector<std::string> known_roles_;
+    std::vector<LightGroup> groups_;
     std::map<std::pair<std::vector<double>, std::vector<std::string>>, PlanHandle> plans_;
 };
 

@@ -85,7 +85,7 @@ std::vector<std::string> known_roles(brume_context context)
 
 std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int frame,
                                    const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
-                                   const ReadLimits &limits)
+                                   const std::vector<LightGroup> &groups, const ReadLimits &limits)
 {
     std::vector<OpenInput> inputs;
     for (const InputRequest &request : asked) {
@@ -106,6 +106,10 @@ std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &col
         if (std::none_of(asked.begin(), asked.end(), [&](const InputRequest &r) { return r.role == role; }))
             if (auto choice = find_known_input(file, role, color))
                 inputs.push_back({std::move(*choice), std::nullopt});
+    for (const LightGroup &group : groups) {
+        InputChoice choice = resolve_group(file, group.layer, group.light, color);
+        inputs.push_back({std::move(choice), std::nullopt});
+    }
     return inputs;
 }
 
@@ -113,8 +117,14 @@ std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs)
 {
     std::vector<std::string> roles;
     for (const OpenInput &input : inputs)
-        roles.push_back(input.choice.role);
+        if (std::find(roles.begin(), roles.end(), input.choice.role) == roles.end())
+            roles.push_back(input.choice.role);
     return roles;
+}
+
+std::string name_of(const OpenInput &input)
+{
+    return input.choice.role + (input.choice.light ? fmt::format("{}", *input.choice.light) : "");
 }
 
 std::string description(const OpenInput &input)

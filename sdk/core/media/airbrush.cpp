@@ -135,7 +135,7 @@ void Airbrush::apply(State &state) const
             }
             speed *= 1 - drag * time_step;
         }
-        add(state, {{at.x, at.y, at.z}, scale, amplitude, {float(colour.x), float(colour.y), float(colour.z)}}, name);
+        add(state, {{at.x, at.y, at.z}, scale, amplitude, {float(color.x), float(color.y), float(color.z)}}, name);
     }
 }
 

@@ -27,7 +27,7 @@ void Emit::apply(State &state) const
             {{center.x, center.y, center.z},
              1 / (size[0] + aged * (size[1] - size[0])),
              amplitude[0] + aged * (amplitude[1] - amplitude[0]),
-             {float(colour.x), float(colour.y), float(colour.z)}},
+             {float(color.x), float(color.y), float(color.z)}},
             name);
     }
 }

@@ -47,11 +47,17 @@ std::string quoted(const std::string &text)
     return nlohmann::json(text).dump();
 }
 
+// Journals have had this spelling since before the ABI had the other.
+const char *key_of(const char *field)
+{
+    return std::string_view(field) == "color" ? "colour" : field;
+}
+
 struct Writer {
     const Depths &depths;
     std::string text;
 
-    void key(const char *field) { text += fmt::format(",\"{}\":", field); }
+    void key(const char *field) { text += fmt::format(",\"{}\":", key_of(field)); }
 
     void operator()(const char *field, uint32_t value)
     {
@@ -146,8 +152,8 @@ struct Reader {
 
     JsonNode get(const char *field)
     {
-        known.emplace_back(field);
-        return node.get(field);
+        known.emplace_back(key_of(field));
+        return node.get(key_of(field));
     }
 
     void operator()(const char *field, uint32_t &value) { value = read_integer(get(field), UINT32_MAX); }

@@ -41,7 +41,7 @@ struct Paint {
     std::vector<dvec3> points;
     dvec3 normal{0.0};  // of the plane painted on: the plane of a single point's jitter is perpendicular to it
     double scale = 1, amplitude = 1;
-    dvec3 colour{1.0};
+    dvec3 color{1.0};
     double spacing = 0, jitter = 1;
 
     template <class Self, class Fields> static void fields(Self &self, Fields &f)
@@ -51,7 +51,7 @@ struct Paint {
         f("normal", self.normal, ranges::any);
         f("scale", self.scale, ranges::positive);
         f("amplitude", self.amplitude, ranges::not_negative);
-        f("colour", self.colour, ranges::fraction);
+        f("color", self.color, ranges::fraction);
         f("spacing", self.spacing, ranges::not_negative);
         f("jitter", self.jitter, limits::jitter);
     }
@@ -82,7 +82,7 @@ struct Emit {
     dvec3 acceleration{0.0};
     double rate = 100, duration = 1e6, lifetime = 1;
     std::array<double, 2> scale{1, 1}, amplitude{1, 0};
-    dvec3 colour{1.0};
+    dvec3 color{1.0};
     double time = 0;
 
     template <class Self, class Fields> static void fields(Self &self, Fields &f)
@@ -98,7 +98,7 @@ struct Emit {
         f("lifetime", self.lifetime, limits::time);
         f("scale", self.scale, ranges::positive);
         f("amplitude", self.amplitude, ranges::not_negative);
-        f("colour", self.colour, ranges::fraction);
+        f("color", self.color, ranges::fraction);
         f("time", self.time, limits::time);
     }
     void apply(State &state) const;
@@ -109,7 +109,7 @@ struct Airbrush {
     uint32_t seed = 0;
     dvec3 position{0.0}, velocity{0.0};
     double spread = 1, drag = 1, diffusion = 0.1, rate = 100, duration = 1, scale = 1, amplitude = 1;
-    dvec3 colour{1.0};
+    dvec3 color{1.0};
     Lens lens;                              // read where there is depth
     std::shared_ptr<const DepthMap> depth;  // null: nothing is in the way
 
@@ -125,7 +125,7 @@ struct Airbrush {
         f("duration", self.duration, limits::time);
         f("scale", self.scale, ranges::positive);
         f("amplitude", self.amplitude, ranges::not_negative);
-        f("colour", self.colour, ranges::fraction);
+        f("color", self.color, ranges::fraction);
         f("lens", self.lens);
         f("depth", self.depth);
     }

@@ -35,7 +35,7 @@ void Paint::apply(State &state) const
         const auto [u, v] = across(along);
         const glm::dvec2 offset = random.in_disc() * (jitter / scale);
         const dvec3 center = at + offset.x * u + offset.y * v;
-        add(state, {{center.x, center.y, center.z}, scale, amplitude, {float(colour.x), float(colour.y), float(colour.z)}},
+        add(state, {{center.x, center.y, center.z}, scale, amplitude, {float(color.x), float(color.y), float(color.z)}},
             name);
     };
 

@@ -97,7 +97,7 @@ typedef struct brume_media_paint {
   const brume_media_stroke *stroke;
   double scale;     /* a [1/scene unit], > 0; default 1 */
   double amplitude; /* c, ratio to unit density, >= 0; default 1 */
-  double colour[3]; /* RGB, 0 to 1; default 1 */
+  double color[3];  /* RGB, 0 to 1; default 1 */
   double spacing;   /* along the stroke [scene unit], >= 0; 0 (default): 0.75 / scale */
   double jitter;    /* bound of the random vector's length in radii 1 / scale, 0 to 1000; default 1 */
 } brume_media_paint;
@@ -140,7 +140,7 @@ typedef struct brume_media_emitter {
   double lifetime;        /* of a particle [s], 0 to 1e6; default 1 */
   double scale[2];        /* a at birth and at the end of life, > 0; the radius 1 / a changes evenly; default 1, 1 */
   double amplitude[2];    /* c at birth and at the end of life, >= 0; changes evenly; default 1, 0 */
-  double colour[3];       /* RGB, 0 to 1; default 1 */
+  double color[3];        /* RGB, 0 to 1; default 1 */
 } brume_media_emitter;
 #define BRUME_MEDIA_EMITTER_INIT \
   {(uint32_t)sizeof(brume_media_emitter), 0u, {0.0, 0.0, 0.0}, 0.0, {0.0, 0.0, 1.0}, 0.0, {0.0, 0.0, 0.0}, 100.0, 1e6, 1.0, \
@@ -166,7 +166,7 @@ typedef struct brume_media_airbrush {
   double duration;              /* until it is stopped [s], 0 to 1e6; default 1 */
   double scale;                 /* a [1/scene unit], > 0; default 1 */
   double amplitude;             /* c, ratio to unit density, >= 0; default 1 */
-  double colour[3];             /* RGB, 0 to 1; default 1 */
+  double color[3];              /* RGB, 0 to 1; default 1 */
 } brume_media_airbrush;
 #define BRUME_MEDIA_AIRBRUSH_INIT \
   {(uint32_t)sizeof(brume_media_airbrush), 0u, NULL, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.0, 1.0, 0.1, 100.0, 1.0, 1.0, 1.0, \
