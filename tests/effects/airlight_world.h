@@ -8,6 +8,7 @@
 #include "maths.hpp"
 #include "quality.h"
 #include "reference_ray.h"
+#include "scene_maths.hpp"
 #include "tables.h"
 
 namespace airlight_cases {
