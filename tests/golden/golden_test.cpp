@@ -3,8 +3,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "exr.h"
 
@@ -17,12 +19,14 @@ bool renewing = false;
 struct Golden {
     const char *name;
     const char *medium;
-    const char *parameters;
-    const char *lights = nullptr;  // of airlight; without any it is multiscatter
+    const char *parameters;  // of airlight where there are lights, else of multiscatter
+    const char *lights = nullptr;
+    const char *effects = nullptr;  // in place of these, all with their parameters
 };
 
 #define LANTERN(place) "{\"type\":\"point\",\"position\":" place ",\"intensity\":[180,120,66],\"radius\":0.13}"
 const char *const lanterns = LANTERN("[-4.5,9.5,3.74]") "," LANTERN("[4.5,17.5,3.74]");
+// clang-format off
 const char *const lantern_and_spot = LANTERN("[-4.5,9.5,3.74]") ","
     "{\"type\":\"spot\",\"position\":[3,12,5],\"direction\":[-0.4,0,-1],\"intensity\":[200,240,300],\"angle\":45,"
     "\"penumbra\":0.3}";
@@ -31,15 +35,19 @@ const char *const lantern_and_spot = LANTERN("[-4.5,9.5,3.74]") ","
     "\"density\":[{\"type\":\"constant\",\"value\":0.02}," BLOB("[-2,10,1]", "\"scale\":0.7,\"amplitude\":0.5") ","         \
     BLOB("[0,12,0.5]", "\"scale\":0.5,\"amplitude\":0.3,\"colour\":[1,0.8,0.6]") ","                                      \
     BLOB("[2,14,1]", "\"scale\":0.6,\"amplitude\":0.6") "]"
+// clang-format on
 
 const Golden goldens[] = {
+    {"demo", nullptr, nullptr},
     {"paper", "\"scattering\":[0.03,0.03,0.032],\"g\":0.8", "\"kernel\":\"paper\""},
     {"paper_tilted_exponential",
      "\"scattering\":0.06,\"absorption\":[0.002,0.001,0],\"g\":0.6,\"density\":[{\"type\":\"exponential\",\"value\":1,"
      "\"falloff\":0.15,\"direction\":[0.1,0,1]}]",
      "\"kernel\":\"paper\""},
-    {"paper_bilinear_2x2", "\"scattering\":0.05,\"g\":0.8", "\"kernel\":\"paper\",\"kernel_size\":\"2x2\",\"fetch\":\"linear_bilinear\""},
-    {"paper_cubic_6x6", "\"scattering\":0.05,\"g\":0.8", "\"kernel\":\"paper\",\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\""},
+    {"paper_bilinear_2x2", "\"scattering\":0.05,\"g\":0.8",
+     "\"kernel\":\"paper\",\"kernel_size\":\"2x2\",\"fetch\":\"linear_bilinear\""},
+    {"paper_cubic_6x6", "\"scattering\":0.05,\"g\":0.8",
+     "\"kernel\":\"paper\",\"kernel_size\":\"6x6\",\"fetch\":\"cubic_bicubic\""},
     {"paper_separation", "\"scattering\":0.05,\"g\":0.8",
      "\"kernel\":\"paper\",\"separation\":true,\"separation_luminance\":4,\"separation_density\":60"},
     {"paper_furnace", "\"visibility\":80,\"g\":0.8", "\"kernel\":\"paper\",\"masking\":false,\"density_blurring\":false"},
@@ -55,6 +63,11 @@ const Golden goldens[] = {
      lantern_and_spot},
     {"airlight_nodes_half", "\"scattering\":[0.3,0.3,0.31],\"g\":0.5," BANK, "\"resolution\":\"half\"", lanterns},
     {"airlight_fogshop", "\"scattering\":[0.3,0.3,0.31]," BANK, "\"tier\":\"fogshop\"", lanterns},
+    {"every_effect_reduced", "\"scattering\":[0.3,0.3,0.31],\"absorption\":[0.03,0.01,0],\"g\":0.6," BANK, nullptr,
+     lantern_and_spot,
+     "\"surface\":{},\"multiscatter\":{\"resolution\":\"quarter\",\"lobes\":\"third\"},"
+     "\"airlight\":{\"tier\":\"nodes\",\"resolution\":\"half\"}"},
+    {"calibrated_half", "\"scattering\":[0.03,0.03,0.032],\"g\":0.8", "\"resolution\":\"half\""},
     {"airlight_sun", "\"scattering\":[0.03,0.03,0.032],\"absorption\":0.01", "\"tier\":\"sun\"", lanterns},
 };
 
@@ -85,14 +98,22 @@ const Input &input()
     return quartered;
 }
 
+// The demo's scene where the golden has no medium of its own.
 std::string text_of(const Golden &golden)
 {
     // A camera 1.7 m up that looks along +y in a world whose z is up.
-    return std::string("{\"brume\":1,\"camera\":{\"vertical_fov\":36,\"camera_to_world\":[[1,0,0,0],[0,0,-1,0],[0,1,0,1.7],["
-                       "0,0,0,1]]},"
-                       "\"medium\":{") +
-           golden.medium + "}," + (golden.lights ? std::string("\"lights\":[") + golden.lights + "]," : "") +
-           "\"effects\":{\"" + (golden.lights ? "airlight" : "multiscatter") + "\":{" + golden.parameters + "}}}";
+    const std::string camera = "{\"vertical_fov\":36,\"camera_to_world\":[[1,0,0,0],[0,0,-1,0],[0,1,0,1.7],[0,0,0,1]]}";
+    if (!golden.medium) {
+        nlohmann::json scene = nlohmann::json::parse(std::ifstream(std::string(BRUME_FRAMES_DIR) + "/street.json"));
+        scene["camera"] = nlohmann::json::parse(camera);
+        return scene.dump();
+    }
+    return "{\"brume\":1,\"camera\":" + camera + ",\"medium\":{" + golden.medium + "}," +
+           (golden.lights ? std::string("\"lights\":[") + golden.lights + "]," : "") + "\"effects\":{" +
+           (golden.effects
+                ? golden.effects
+                : std::string(golden.lights ? "\"airlight\":{" : "\"multiscatter\":{") + golden.parameters + "}") +
+           "}}";
 }
 
 class GoldenTest : public testing::TestWithParam<Golden> {
