@@ -4,14 +4,23 @@
 #include "density.glsl"
 #include "radiance.glsl"
 #include "data.glsl"
+#include "erf.glsl"
+#include "gaussian.glsl"
+#include "noise.glsl"
 #include "phase.glsl"
 #include "light.glsl"
+#include "light_cone.glsl"
+#include "lit.glsl"
+#include "octahedral.glsl"
+#include "shadow.glsl"
+#include "shadow_map.glsl"
 #include "surroundings.glsl"
+#include "airlight.glsl"
 
 uniform Camera brume_camera;
 uniform SurroundingsSettings around;
 uniform ivec2 size;  // of the full images
-uniform int light_count;
+uniform AirlightSettings airlight;
 uniform sampler2D depth;
 uniform sampler2D lights;
 writeonly uniform image2D surroundings;
@@ -20,7 +29,7 @@ void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     int i = p.y * 1024 + p.x;
-    if (p.x >= brume_grid.x || p.y >= brume_grid.y || i >= sides * light_count)
+    if (p.x >= brume_grid.x || p.y >= brume_grid.y || i >= sides * airlight.light_count)
         return;
     int lamp = i / sides;
     imageStore(surroundings, p,
