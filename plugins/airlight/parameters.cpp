@@ -16,13 +16,14 @@ constexpr brume_parameter_info table[count] = {
     number("max_error", 1e-5, 0.5, 0.01, "", "relative error asked of tier nodes: sets its node counts"),
     choice("resolution", "full|half|quarter", 0,
            "evaluate at every pixel, every second or every fourth; the rest is interpolated between pixels of like distance"),
-    choice("orders", "single|all", 0,
+    choice("orders", "single|all|auto", 2,
            "single: what lamps scatter once toward the camera; all: any number of times, of points and spots, by tiers nodes and "
-           "reference"),
-    choice("ground", "none|y|z", 0,
-           "world axis that points up from a plane below the lamps, which takes of the fog's light what falls on it; none: "
-           "endless fog. With orders all"),
-    number("ground_height", -1e6, 1e6, 0, "m", "where that plane lies on the axis"),
+           "reference; auto: all beside an effect that scatters the picture's light, where what scatters again is more than max_error "
+           "of the lamps' light, else single"),
+    choice("ground", "none|y|z|auto", 3,
+           "what takes of the fog's light that falls on it, with orders all. y, z: a plane below the lamps, from which this world "
+           "axis points up; auto: what the picture shows of surfaces around each lamp; none: nothing, endless fog"),
+    number("ground_height", -1e6, 1e6, 0, "m", "where the plane of ground y or z lies on its axis"),
 };
 
 }  // namespace
@@ -43,6 +44,11 @@ void choose(double *values, Tier chosen, double error, int reduction)
     values[tier] = double(chosen);
     values[max_error] = error;
     values[resolution] = reduction == 4 ? 2 : reduction - 1;
+}
+
+void settle_orders(double *values, Orders chosen)
+{
+    values[orders] = double(chosen);
 }
 
 }  // namespace airlight

@@ -6,8 +6,8 @@
 namespace airlight {
 
 enum class Tier { nodes, fogshop, sun, reference };
-enum class Orders { single, all };
-enum class Ground { none, y, z };
+enum class Orders { single, all, automatic };
+enum class Ground { none, y, z, automatic };
 
 struct Parameters {
     Tier tier;
@@ -23,5 +23,7 @@ Parameters read_parameters(const double *values);
 
 // Sets those of a table's values.
 void choose(double *values, Tier tier, double max_error, int reduction);
+
+void settle_orders(double *values, Orders chosen);
 
 }  // namespace airlight

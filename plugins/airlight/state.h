@@ -62,6 +62,7 @@ struct State {
     brume_plugin_image sun_table = nullptr;
     brume_plugin_image environment_table = nullptr;
     int environment_order = 0;
+    brume_plugin_image surroundings = nullptr;  // with Orders::all
 
     // Refreshed when something moved.
     brume_plugin_image environment = nullptr;  // its coefficients
@@ -79,6 +80,7 @@ struct State {
 
     // NULL: not needed.
     brume_pass blobs = nullptr;
+    brume_pass around = nullptr;
     brume_pass gather = nullptr;
     brume_pass compose = nullptr;
 };

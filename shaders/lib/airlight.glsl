@@ -22,7 +22,6 @@ struct AirlightSettings {
     float near_radii;      // a light nearer than so many radii of a Gaussian needs other nodes
     float culled;          // share of the airlight that may be missing by what the lists leave out
     int orders;
-    vec4 ground;           // camera space, as height_above() has it
     ivec4 shadowed;        // 1 + the light that map shadow_0 to shadow_3 is of; 0: there is none
 };
 
@@ -40,10 +39,11 @@ struct Sight {
 };
 
 // blob_density: texel i (1 + light_count) + k is int rho dt between origin k (shadow.glsl) and the centre of Gaussian i, without
-// its own (airlight_fogshop.glsl). sun_table: airlight_sun.glsl.
+// its own (airlight_fogshop.glsl). sun_table: airlight_sun.glsl. surroundings: surroundings.glsl, of orders_all.
 #define AIRLIGHT_IMAGES SHADOW_IMAGES, sampler2D lights, sampler2D tile_gaussians, sampler2D blob_density, sampler2D sun_table, \
+                        sampler2D surroundings, \
                         SHADOW_MAP_IMAGES
-#define AIRLIGHT_PASSED SHADOW_PASSED, lights, tile_gaussians, blob_density, sun_table, SHADOW_MAP_PASSED
+#define AIRLIGHT_PASSED SHADOW_PASSED, lights, tile_gaussians, blob_density, sun_table, surroundings, SHADOW_MAP_PASSED
 
 // Bounds what a light of no size does at its own place.
 const float smallest_light = R(1e-6);       // [m]

@@ -40,9 +40,6 @@ struct Surface {
     vec3 normal;  // unit; 0 where nobody knows it: then it counts as facing every lamp
 };
 
-// Farther away no medium that lamps shine through is told apart.
-const float farthest_surface = R(1e12);
-
 PURE Surface surface_at(IN(Ray) ray, vec3 normal)
 {
     Bool seen = !ray.keep && ray.distance < farthest_surface;

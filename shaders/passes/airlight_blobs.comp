@@ -12,6 +12,7 @@
 #include "light.glsl"
 #include "shadow.glsl"
 #include "shadow_map.glsl"
+#include "surroundings.glsl"
 #include "airlight.glsl"
 #include "airlight_sun.glsl"
 #include "airlight_fogshop.glsl"

@@ -13,6 +13,7 @@
 #include "light.glsl"
 #include "shadow.glsl"
 #include "shadow_map.glsl"
+#include "surroundings.glsl"
 #include "airlight.glsl"
 #include "airlight_sun.glsl"
 #include "airlight_fogshop.glsl"
@@ -42,6 +43,7 @@ uniform sampler2D cell_gaussians;
 uniform sampler2D shadow_origins;
 uniform sampler2D blob_density;
 uniform sampler2D sun_table;
+uniform sampler2D surroundings;
 uniform sampler2D environment;
 uniform sampler2D environment_table;
 uniform sampler2D light_shadows;
