@@ -89,6 +89,27 @@ protected:
                    out_ = folder_ / "out.exr";
 };
 
+TEST_F(Inputs, LightGroupsAreThoseThatTheSceneNames)
+{
+    const auto scene = [&](const std::string &more) {
+        write_text(fog_, R"({"brume":1, "camera": {"camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+            "medium": {"scattering": 0.01, "absorption": 0.05}, "lights": [
+            {"type": "point", "position": [0,2,0], "intensity": 9)" +
+                             more + R"(},
+            {"type": "point", "position": [1,0,-9], "intensity": 5}]})");
+        return fog_;
+    };
+    write_exr(in_, {{with(three("L0", [](double tau) { return 0.2 * tau; }))}});
+    const auto plain = fogged(scene(""), {}), own = fogged(scene(R"(, "group": "L0")"), {});
+    EXPECT_NE(plain, own);
+    const Result plan = command("plan", scene(R"(, "group": "L0")"), {"--json"});
+    ASSERT_EQ(plan.status, 0) << plan.err;
+    const json said = json::parse(plan.out);
+    EXPECT_EQ(said["inputs"]["light_group0"], "L0.R,L0.G,L0.B: the scene's lights[0].group");
+    scene(R"(, "group": "L1")");
+    expect_refused({"--sky", "fog"}, {"lights[0].group \"L1\"", "nearest is 'L0'"});
+}
+
 TEST_F(Inputs, LayersOfTheSameFileAreTheMedium)
 {
     auto channels = with(three("fog.tau"));
