@@ -2,7 +2,8 @@
 #pragma once
 // shaders/lib for several pixels of a row side by side, which is what the CPU runs where a pass costs most:
 // brume::lanes_generic for every machine, brume::lanes_avx2 for those of which runs_avx2() is true. Loops that use them are
-// compiled once for each, the second between BRUME_BEGIN_AVX2 and BRUME_END_AVX2.
+// compiled once for each, the second between BRUME_BEGIN_AVX2 and BRUME_END_AVX2. Both have eight pixels, since what some of them
+// need all of them do.
 //
 // GCC's vectors and arithmetic of our own won over Highway and xsimd: they round alike on every machine (nothing is fused,
 // the exponentials are the same), so that a picture does not depend on where it was made, and there is no second object
@@ -28,11 +29,11 @@
 
 namespace brume {
 
-#define BRUME_LANES 4
+#define BRUME_GATHER 0
 namespace lanes_generic {
 #include "lanes_types.inc"
 }
-#undef BRUME_LANES
+#undef BRUME_GATHER
 
 #ifdef BRUME_AVX2
 inline bool runs_avx2()
@@ -40,13 +41,13 @@ inline bool runs_avx2()
     return __builtin_cpu_supports("avx2");
 }
 
-#define BRUME_LANES 8
+#define BRUME_GATHER 1
 BRUME_BEGIN_AVX2
 namespace lanes_avx2 {
 #include "lanes_types.inc"
 }
 BRUME_END_AVX2
-#undef BRUME_LANES
+#undef BRUME_GATHER
 #endif
 
 }  // namespace brume

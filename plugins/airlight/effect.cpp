@@ -1,5 +1,6 @@
 // airlight: what the scene's lights scatter once toward the camera (Zhou et al. 2007, Sun et al. 2005).
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -7,7 +8,9 @@
 
 #include "encounters.h"
 #include "layers.h"
+#include "orders.h"
 #include "passes.h"
+#include "scene_maths.hpp"
 #include "shadow_maps.h"
 #include "state.h"
 
@@ -17,6 +20,13 @@ namespace {
 bool any(const float (&v)[3])
 {
     return v[0] > 0 || v[1] > 0 || v[2] > 0;
+}
+
+std::string percent(double share)
+{
+    char text[16];
+    snprintf(text, sizeof text, "%.2g %%", 100 * share);
+    return text;
 }
 
 class Planner {
@@ -48,11 +58,13 @@ private:
     }
 
     brume_status check_tier();
+    brume_status explain_orders();
     brume_status plan_shadows();
     brume_status need_camera();
     double gather_operations() const;
     brume_status plan_gather();
     const char *why_unlit(bool dense) const;
+    bool choose_maps() const;
 
     const brume_services &services_;
     brume_host host_;
@@ -77,6 +89,18 @@ brume_status Planner::check_tier()
     if (m.phase[0] != 0 || m.phase[3] != 0)
         return fail("tier: " + name + " with a phase function that is not isotropic; expected tier nodes, or g 0");
     return BRUME_OK;
+}
+
+brume_status Planner::explain_orders()
+{
+    const Parameters &p = state_->parameters;
+    if (p.orders == Orders::all)
+        return BRUME_OK;
+    const double share = scattered_on_the_way(scene_, state_->width, state_->height);
+    if (share <= p.max_error)
+        return BRUME_OK;
+    return drop("orders", "scattered once: about " + percent(share) + " of the lamps' light is scattered again" +
+                              (state_->attenuates ? ", as no effect before this one scatters the picture's either" : ""));
 }
 
 brume_status Planner::plan_shadows()
@@ -133,6 +157,19 @@ double Planner::gather_operations() const
     return operations;
 }
 
+// Maps serve many Gaussians; where there are few, nodes are both nearer and faster. Where the grid cannot be as fine as the
+// Gaussians are small, they are not taken unasked.
+bool Planner::choose_maps() const
+{
+    const Tier tier = state_->parameters.tier;
+    if (scene_.gaussian_count == 0 || scene_.light_count == 0)
+        return false;
+    if (tier != Tier::automatic)
+        return tier == Tier::maps;
+    const double pixels = double(state_->width) * state_->height / (state_->parameters.reduction * state_->parameters.reduction);
+    return maps_suit(request_, *state_) && 2 * mapped_operations(request_, *state_) < pixels * gather_operations();
+}
+
 brume_status Planner::plan_gather()
 {
     State &state = *state_;
@@ -149,8 +186,24 @@ brume_status Planner::plan_gather()
     if (reduction > 1)
         if (brume_status s = image("airlight distances", 1, state.distances))
             return s;
+    if (state.parameters.orders == Orders::all) {
+        constexpr int values = brume::maths_float::sides * int(BRUME_MAX_LIGHTS);
+        if (brume_status s = services_.create_image(host_, "airlight surroundings", BRUME_DATA_WIDTH,
+                                                    (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, 4, &state.surroundings))
+            return s;
+        if (brume_status s = entry(true, "around", state.parameters.ground == Ground::automatic
+                                                       ? "what the picture shows of surfaces around each lamp"
+                                                       : "what is around each lamp, as ground says",
+                                   4096, scene_.light_count * 6.0 * 1296 * 40))
+            return s;
+    }
     if (brume_status s = plan_tables(services_, host_, scene_, state))
         return s;
+    if (choose_maps()) {
+        state.maps.used = true;
+        if (brume_status s = plan_maps(services_, host_, request_, state))
+            return s;
+    }
     state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
     if (state.has_blobs)
         if (brume_status s = entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved",
@@ -161,10 +214,13 @@ brume_status Planner::plan_gather()
         true, "gather",
         std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
             (scene_.environment_count ? " and the environment" : "") +
-            (state.parameters.orders == Orders::all ? " scattered any number of times" : " scattered once") +
+            (state.parameters.orders == Orders::all
+                 ? " scattered any number of times, about " +
+                       percent(scattered_on_the_way(scene_, state.width, state.height)) + " of it more than once"
+                 : " scattered once") +
             (state.shadowed ? ", in the shadows of solid things" : "") +
             (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
-        pixels * (4 + 16), pixels * gather_operations());
+        pixels * (4 + 16), state.maps.used ? mapped_operations(request_, state) : pixels * gather_operations());
 }
 
 const char *Planner::why_unlit(bool dense) const
@@ -194,6 +250,9 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     if (state.lit)
         if (brume_status s = plan_shadows())
+            return s;
+    if (state.lit)
+        if (brume_status s = explain_orders())
             return s;
     if (brume_status s = state.lit ? plan_gather() : drop("gather", why_unlit(dense)))
         return s;
@@ -229,12 +288,28 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
     return run_passes(*services, host, *frame, state);
 }
 
+// Whether all orders are asked for, and can be had: the published tiers know single scattering only. Alone, this effect is Zhou et
+// al.'s equation 29, in which nothing scatters twice.
+brume_status settle(const brume_services *services, brume_host host, const brume_plugin_request *request, double *values)
+{
+    const Parameters p = read_parameters(values);
+    if (p.orders != Orders::automatic)
+        return BRUME_OK;
+    const bool able = p.tier != Tier::fogshop && p.tier != Tier::sun;
+    const bool beside = services->made(host, "attenuated_radiance") == BRUME_MADE_EARLIER &&
+                        services->made(host, "density_rgb") != BRUME_MADE_EARLIER;
+    settle_orders(values, able && beside && scattered_on_the_way(*request->scene, request->width, request->height) > p.max_error
+                              ? Orders::all
+                              : Orders::single);
+    return BRUME_OK;
+}
+
 // The published tiers know single scattering only.
 uint32_t makes_with(const double *values, uint32_t index)
 {
     const Parameters p = read_parameters(values);
     return made[index] != std::string_view("all_scattering") ||
-           (p.orders == Orders::all && (p.tier == Tier::nodes || p.tier == Tier::reference));
+           (p.orders == Orders::all && p.tier != Tier::fogshop && p.tier != Tier::sun);
 }
 
 }  // namespace
@@ -263,6 +338,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
                                      execute,
                                      [](void *state) { delete static_cast<State *>(state); },
                                      makes_with,
-                                     offer};
+                                     offer,
+                                     settle};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

@@ -49,6 +49,9 @@ brume_status refresh(const brume_services &services, brume_host host, const brum
             return s;
     if (brume_status s = refresh_lists(services, host, scene, moved, state))
         return s;
+    if (state.maps.used)
+        if (brume_status s = refresh_maps(services, host, scene, moved, state))
+            return s;
     state.blobs_pending = false;
     if (state.has_blobs && scene.gaussian_count > 0) {
         state.values.assign(size_t(scene.gaussian_count) * (1 + scene.light_count), 0.0f);

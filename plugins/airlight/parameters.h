@@ -5,9 +5,9 @@
 
 namespace airlight {
 
-enum class Tier { nodes, fogshop, sun, reference };
-enum class Orders { single, all };
-enum class Ground { none, y, z };
+enum class Tier { nodes, fogshop, sun, reference, maps, automatic };
+enum class Orders { single, all, automatic };
+enum class Ground { none, y, z, automatic };
 
 struct Parameters {
     Tier tier;
@@ -16,6 +16,7 @@ struct Parameters {
     Orders orders;
     Ground ground;
     double ground_height;  // [m]
+    double memory;         // of the grid of tier maps, at most [MB]
 };
 
 std::span<const brume_parameter_info> parameter_table();
@@ -23,5 +24,7 @@ Parameters read_parameters(const double *values);
 
 // Sets those of a table's values.
 void choose(double *values, Tier tier, double max_error, int reduction);
+
+void settle_orders(double *values, Orders chosen);
 
 }  // namespace airlight

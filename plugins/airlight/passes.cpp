@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "pass_tables.hpp"
 #include "settings.h"
 #include "state.h"
 
@@ -21,27 +20,16 @@ constexpr brume_slot blobs_slots[] = {fetch("gaussians"),      fetch("lights"), 
                                       fetch("cell_gaussians"), fetch("shadow_origins"), write("density")};
 static_assert(std::size(blobs_slots) == blobs::slot_count);
 
-constexpr brume_slot gather_slots[] = {fetch("depth"),
-                                       fetch("gaussian_density"),
-                                       fetch("tiles"),
-                                       fetch("gaussians"),
-                                       fetch("lights"),
-                                       fetch("tile_gaussians"),
-                                       fetch("cells"),
-                                       fetch("cell_gaussians"),
-                                       fetch("shadow_origins"),
-                                       fetch("blob_density"),
-                                       fetch("sun_table"),
-                                       fetch("environment"),
-                                       fetch("environment_table"),
-                                       fetch("light_shadows"),
-                                       fetch("shadow_0"),
-                                       fetch("shadow_1"),
-                                       fetch("shadow_2"),
-                                       fetch("shadow_3"),
-                                       write("radiance"),
-                                       write("error"),
-                                       write("distances")};
+constexpr brume_slot around_slots[] = {fetch("depth"), fetch("lights"), write("surroundings")};
+static_assert(std::size(around_slots) == around::slot_count);
+
+constexpr brume_slot gather_slots[] = {
+    fetch("depth"),          fetch("gaussian_density"),  fetch("tiles"),         fetch("gaussians"),
+    fetch("lights"),         fetch("tile_gaussians"),    fetch("cells"),         fetch("cell_gaussians"),
+    fetch("shadow_origins"), fetch("blob_density"),      fetch("sun_table"),     fetch("surroundings"),
+    fetch("environment"),    fetch("environment_table"), fetch("light_shadows"), fetch("shadow_0"),
+    fetch("shadow_1"),       fetch("shadow_2"),          fetch("shadow_3"),      write("radiance"),
+    write("error"),          write("distances")};
 static_assert(std::size(gather_slots) == gather::slot_count);
 
 constexpr brume_slot compose_slots[] = {fetch("color"),
@@ -57,18 +45,10 @@ constexpr brume_slot compose_slots[] = {fetch("color"),
                                         write("airlight_error_out")};
 static_assert(std::size(compose_slots) == compose::slot_count);
 
-constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, airlight, light_count),
-                                              BRUME_CONSTANT_OF(Constants, airlight, gaussian_count),
-                                              BRUME_CONSTANT_OF(Constants, airlight, environment_order),
-                                              BRUME_CONSTANT_OF(Constants, airlight, panels),
-                                              BRUME_CONSTANT_OF(Constants, airlight, dense_from),
-                                              BRUME_CONSTANT_OF(Constants, airlight, cells),
-                                              BRUME_CONSTANT_OF(Constants, airlight, tolerance),
-                                              BRUME_CONSTANT_OF(Constants, airlight, near_radii),
-                                              BRUME_CONSTANT_OF(Constants, airlight, culled),
-                                              BRUME_CONSTANT_OF(Constants, airlight, orders),
-                                              BRUME_CONSTANT_OF(Constants, airlight, ground),
-                                              BRUME_CONSTANT_OF(Constants, airlight, shadowed),
+constexpr brume_constant constants_table[] = {BRUME_AIRLIGHT_SETTINGS(Constants),
+                                              BRUME_CONSTANT_OF(Constants, around, kind),
+                                              BRUME_CONSTANT_OF(Constants, around, axis),
+                                              BRUME_CONSTANT_OF(Constants, around, height),
                                               BRUME_CONSTANT(Constants, size),
                                               BRUME_CONSTANT(Constants, light_range),
                                               BRUME_CONSTANT(Constants, reduction)};
@@ -98,6 +78,7 @@ public:
         : services_(services), host_(host), frame_(frame), state_(state)
     {
         constants_.airlight = settings_of(state, *frame.scene);
+        constants_.around = surroundings_settings(state, *frame.scene);
         constants_.size = ivec2(state.width, state.height);
         constants_.reduction = state.parameters.reduction;
         constants_.tier = tier_of(state);
@@ -106,6 +87,7 @@ public:
     }
 
     brume_status blobs();
+    brume_status around();
     brume_status gather_all();
     brume_status gather_light(uint32_t light, brume_plugin_image radiance);
     brume_status compose();
@@ -141,6 +123,18 @@ brume_status Frame::blobs()
                          (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, nullptr);
 }
 
+brume_status Frame::around()
+{
+    using namespace airlight::around;
+    const int values = brume::maths_float::sides * constants_.airlight.light_count;
+    brume_plugin_image images[slot_count] = {};
+    images[depth] = frame_.depth;
+    images[lights] = product(product_lights);
+    images[surroundings] = state_.surroundings;
+    return services_.run(host_, state_.around, images, &constants_, BRUME_DATA_WIDTH,
+                         (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, nullptr);
+}
+
 brume_status Frame::gather(const Constants &constants, brume_plugin_image to, brume_plugin_image to_error,
                            brume_plugin_image to_distances)
 {
@@ -157,6 +151,7 @@ brume_status Frame::gather(const Constants &constants, brume_plugin_image to, br
     images[shadow_origins] = state_.origins;
     images[blob_density] = state_.blob_density;
     images[sun_table] = state_.sun_table;
+    images[surroundings] = state_.surroundings;
     images[environment] = state_.environment;
     images[environment_table] = state_.environment_table;
     images[light_shadows] = product(product_light_shadows);
@@ -207,12 +202,16 @@ brume_status Frame::compose()
 
 brume_status create_passes(const brume_services &services, brume_host host, uint32_t outputs, State &state)
 {
-    if (state.lit || (outputs & (1u << layer_light_airlight)))
+    if ((state.lit && !state.maps.used) || (!state.lit && (outputs & (1u << layer_light_airlight))))
         if (brume_status s = create_gather(services, host, state))
             return s;
     if (state.has_blobs)
         if (brume_status s = create(services, host, pass("blobs", blobs_slots, 1), "airlight_blobs.comp",
                                     pass_text("airlight_blobs.comp"), "", blobs_rows, state.blobs))
+            return s;
+    if (state.surroundings)
+        if (brume_status s = create(services, host, pass("around", around_slots, 1), "airlight_surroundings.comp",
+                                    pass_text("airlight_surroundings.comp"), "", around_rows, state.around))
             return s;
     return create(services, host, pass("compose", compose_slots, 8), "airlight_compose.comp",
                   pass_text("airlight_compose.comp"),
@@ -229,13 +228,22 @@ brume_status run_passes(const brume_services &services, brume_host host, const b
             return s;
         state.blobs_pending = false;
     }
+    if (state.around)
+        if (brume_status s = passes.around())
+            return s;
     if (state.lit)
-        if (brume_status s = passes.gather_all())
+        if (brume_status s = state.maps.used ? gather_by_maps(services, host, frame, state,
+                                                              {0, int(frame.scene->light_count), state.radiance, state.error,
+                                                               state.distances, true, state.parameters.reduction})
+                                             : passes.gather_all())
             return s;
     const brume_plugin_image *of_lights = frame.layers[layer_light_airlight].of_lights;
     for (uint32_t l = 0; of_lights && l < frame.scene->light_count; ++l)
         if (of_lights[l])
-            if (brume_status s = passes.gather_light(l, of_lights[l]))
+            if (brume_status s = state.maps.used && state.lit
+                                     ? gather_by_maps(services, host, frame, state,
+                                                      {int(l), int(l) + 1, of_lights[l], nullptr, nullptr, false, 1})
+                                     : passes.gather_light(l, of_lights[l]))
                 return s;
     return passes.compose();
 }

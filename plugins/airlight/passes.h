@@ -11,6 +11,7 @@ struct State;
 // Of all passes; each reads what concerns it.
 struct Constants {
     brume::maths_float::AirlightSettings airlight;
+    brume::maths_float::SurroundingsSettings around;
     brume::maths_float::ivec2 size;         // of the full images
     brume::maths_float::ivec2 light_range;  // the lights [x, y) that are gathered
     int32_t reduction;
@@ -23,6 +24,10 @@ struct Constants {
 // The slots of each pass, by index.
 namespace blobs {
 enum Slot { gaussians, lights, cells, cell_gaussians, shadow_origins, density, slot_count };
+}
+
+namespace around {
+enum Slot { depth, lights, surroundings, slot_count };
 }
 
 namespace gather {
@@ -38,6 +43,7 @@ enum Slot {
     shadow_origins,
     blob_density,
     sun_table,
+    surroundings,
     environment,
     environment_table,
     light_shadows,
@@ -70,6 +76,7 @@ enum Slot {
 }
 
 brume_status blobs_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+brume_status around_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 // Of tier reference, in double; it has no shader.
 brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last);

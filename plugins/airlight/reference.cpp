@@ -61,7 +61,11 @@ brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first,
         maps.emplace_back(slots[gather::shadow_0 + i]);
     const int environment_order = constants.airlight.environment_order;
     const brume::maths_float::AirlightSettings &settings = constants.airlight;
-    brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, vec4(settings.ground)};
+    const Data planes = copy_of(slots[gather::surroundings]);
+    std::vector<Surroundings> around;
+    for (uint32_t i = 0; i < scene.light_count && settings.orders == orders_all; ++i)
+        around.push_back(surroundings_of(planes.texture(), int(i)));
+    brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, around};
     seen.shadowed = settings.shadowed;
     seen.light_shadows = &shadow_texels;
     for (size_t i = 0; i < maps.size(); ++i)

@@ -38,7 +38,8 @@ double terms_integral(const Medium &medium, vec3 origin, vec3 direction, double 
 class Integrand {
 public:
     Integrand(const ReferenceScene &scene, vec3 direction, int light, double distance)
-        : scene_(scene), direction_(direction), light_(scene.lights[size_t(light)]), aspect_(aspect_of(light_, direction))
+        : scene_(scene), direction_(direction), light_(scene.lights[size_t(light)]), aspect_(aspect_of(light_, direction)),
+          around_(scene.around.empty() ? open_surroundings() : scene.around[size_t(light)])
     {
         find_shadows(light, distance);
         for (const Gaussian &g : scene.gaussians) {
@@ -76,7 +77,8 @@ public:
         const vec3 extinction = medium.scattering + medium.absorption;
         vec3 arrives = strength * light_.intensity * glm::exp(-extinction * std::min(to_light, density_limit));
         if (scene_.orders == orders_all)
-            arrives += rescattered_strength(medium, light_, aspect_, scene_.ground, direction_, t, std::min(to_light, density_limit));
+            arrives += rescattered_strength(medium, scene_.camera, light_, aspect_, around_, direction_, t,
+                                            std::min(to_light, density_limit));
         return arrives * medium.scattering * scattering * glm::exp(-extinction * std::min(depth, density_limit));
     }
 
@@ -149,6 +151,7 @@ private:
     vec3 direction_;
     const Light &light_;
     Aspect aspect_;
+    Surroundings around_;
     std::vector<Profile> seen_;  // the Gaussians along the ray
     std::vector<double> most_;   // their peaks along rays through their centres
     std::vector<double> edges_;  // begins and ends of what is lit, by turns; none: all is

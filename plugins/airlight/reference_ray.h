@@ -12,7 +12,7 @@ struct ReferenceScene {
     std::span<const maths_double::Light> lights;
     maths_double::Camera camera{};  // its axes place the medium's noise
     int orders = maths_double::orders_single;
-    maths_double::vec4 ground{};
+    std::span<const maths_double::Surroundings> around{};  // of each light; none: endless fog
 
     // Shadow maps, where shadowed names any.
     maths_double::ivec4 shadowed{};

@@ -33,6 +33,21 @@ brume_status blobs_rows(const brume_plugin_rows *call, int32_t first, int32_t la
     });
 }
 
+brume_status around_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const Constants &constants = constants_of(*call);
+    const Camera camera = camera_of(*call->scene);
+    const brume_plugin_pixels *slots = call->slots;
+    const Texture depth = texture_of(slots[around::depth]), lights = texture_of(slots[around::lights]);
+    return for_pixels(*call, first, last, [&](int x, int y) {
+        const int i = y * BRUME_DATA_WIDTH + x;
+        if (i < sides * constants.airlight.light_count)
+            store(
+                slots[around::surroundings], x, y,
+                surroundings_texel(constants.around, camera, depth, constants.size, light_at(lights, i / sides), i % sides));
+    });
+}
+
 brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     const Constants &constants = constants_of(*call);
@@ -45,6 +60,7 @@ brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t l
                   cells = texture_of(slots[gather::cells]), cell_gaussians = texture_of(slots[gather::cell_gaussians]),
                   shadow_origins = texture_of(slots[gather::shadow_origins]),
                   blob_density = texture_of(slots[gather::blob_density]), sun_table = texture_of(slots[gather::sun_table]),
+                  surroundings = texture_of(slots[gather::surroundings]),
                   environment = texture_of(slots[gather::environment]),
                   environment_table = texture_of(slots[gather::environment_table]),
                   light_shadows = texture_of(slots[gather::light_shadows]), shadow_0 = texture_of(slots[gather::shadow_0]),

@@ -8,7 +8,8 @@ using namespace brume::maths_float;
 
 int tier_of(const State &state)
 {
-    constexpr int tiers[] = {airlight_nodes, airlight_fogshop, airlight_sun, airlight_reference};
+    // Of maps, light by light where none scatters: nothing.
+    constexpr int tiers[] = {airlight_nodes, airlight_fogshop, airlight_sun, airlight_reference, airlight_nodes, airlight_nodes};
     return tiers[int(state.parameters.tier)];
 }
 
@@ -22,15 +23,20 @@ AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene
     s.culled = scene.gaussian_count > 0 ? 0.3f * reach_share : 0.0f;
     brume::airlight::set_quality(s, state.parameters.max_error);
     s.orders = state.parameters.orders == Orders::all ? orders_all : orders_single;
-    s.ground = vec4(0);
-    if (state.parameters.ground != Ground::none) {
-        const int axis = state.parameters.ground == Ground::y ? 1 : 2;
-        const brume_plugin_camera &c = *scene.camera;
-        s.ground = vec4(c.right[axis], c.up[axis], c.back[axis], float(scene.position[axis] - state.parameters.ground_height));
-    }
     for (int i = 0; i < int(most_shadow_maps); ++i)
         s.shadowed[i] = state.shadow_maps[i].light + 1;
     return s;
+}
+
+SurroundingsSettings surroundings_settings(const State &state, const brume_plugin_scene &scene)
+{
+    const Ground ground = state.parameters.ground;
+    if (ground == Ground::none)
+        return {surroundings_open, 0, 0};
+    if (ground == Ground::automatic)
+        return {surroundings_seen, 0, 0};
+    const int axis = ground == Ground::y ? 1 : 2;
+    return {surroundings_ground, axis, float(scene.position[axis] - state.parameters.ground_height)};
 }
 
 }  // namespace airlight

@@ -1,6 +1,16 @@
 #pragma once
+#include "pass_tables.hpp"
 #include "scene_maths.hpp"
 #include "state.h"
+
+// The members of a struct's member `airlight`, for tables of constants.
+#define BRUME_AIRLIGHT_SETTINGS(Struct)                                                                                     \
+    BRUME_CONSTANT_OF(Struct, airlight, light_count), BRUME_CONSTANT_OF(Struct, airlight, gaussian_count),                 \
+        BRUME_CONSTANT_OF(Struct, airlight, environment_order), BRUME_CONSTANT_OF(Struct, airlight, panels),               \
+        BRUME_CONSTANT_OF(Struct, airlight, dense_from), BRUME_CONSTANT_OF(Struct, airlight, cells),                       \
+        BRUME_CONSTANT_OF(Struct, airlight, tolerance), BRUME_CONSTANT_OF(Struct, airlight, near_radii),                   \
+        BRUME_CONSTANT_OF(Struct, airlight, culled), BRUME_CONSTANT_OF(Struct, airlight, orders),                          \
+        BRUME_CONSTANT_OF(Struct, airlight, shadowed)
 
 namespace airlight {
 
@@ -9,5 +19,8 @@ int tier_of(const State &state);
 
 // How finely the tiers integrate a frame, from the error asked.
 brume::maths_float::AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene);
+
+// Where the planes around lamps come from.
+brume::maths_float::SurroundingsSettings surroundings_settings(const State &state, const brume_plugin_scene &scene);
 
 }  // namespace airlight

@@ -3,6 +3,7 @@
 
 #include <brume/brume_plugin.h>
 
+#include "maps/maps.h"
 #include "parameters.h"
 #include "shadow_lists.h"
 
@@ -36,7 +37,9 @@ enum Upload : uint32_t {
     upload_blob_density,
     upload_sun_table,
     upload_environment,
-    upload_environment_table
+    upload_environment_table,
+    upload_slices,
+    upload_attenuation_frames
 };
 
 constexpr uint32_t most_shadow_maps = 4;
@@ -62,6 +65,7 @@ struct State {
     brume_plugin_image sun_table = nullptr;
     brume_plugin_image environment_table = nullptr;
     int environment_order = 0;
+    brume_plugin_image surroundings = nullptr;  // with Orders::all
 
     // Refreshed when something moved.
     brume_plugin_image environment = nullptr;  // its coefficients
@@ -77,8 +81,11 @@ struct State {
 
     ShadowMap shadow_maps[most_shadow_maps];  // of the frame at hand
 
+    Maps maps;
+
     // NULL: not needed.
     brume_pass blobs = nullptr;
+    brume_pass around = nullptr;
     brume_pass gather = nullptr;
     brume_pass compose = nullptr;
 };

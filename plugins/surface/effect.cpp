@@ -11,6 +11,11 @@ constexpr brume_layer_info layer_table[] = {
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "normal", "where surfaces face; without it, as depth has it"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT, 3, 0, "light_group",
      "what of the picture is one light's; without it, by what lights give in clear air without shadows"},
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "albedo",
+     "of diffuse reflection; with it, light that the medium brings into shadows and to sides turned away is added"},
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "specular",
+     "of glossy reflection; with albedo and roughness, lamps' highlights dim and widen"},
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 1, 0, "roughness", "of glossy reflection, 0 to 1; 1: there is none"},
     {sizeof(brume_layer_info), BRUME_LAYER_OUTPUT, 3, 0, "surface",
      "the picture as the lights give it through the medium, before the medium in front of it"},
 };
@@ -47,6 +52,7 @@ private:
     }
     const char *why_not() const;
     brume_status plan_normals(double pixels);
+    brume_status explain_material();
     brume_status plan_groups(double pixels, double of_light);
 
     const brume_services &services_;
@@ -82,6 +88,20 @@ brume_status Planner::plan_normals(double pixels)
     return entry(true, "normals", "no layer normal: from depth", pixels * (4 + 16), pixels * 80);
 }
 
+brume_status Planner::explain_material()
+{
+    const uint32_t *given = request_.layers;
+    if (!given[layer_albedo])
+        return entry(false, "material",
+                     given[layer_specular] || given[layer_roughness]
+                         ? "specular and roughness count with a layer albedo only"
+                         : "no layer albedo: a factor of what the picture shows, which cannot light what is black",
+                     0, 0);
+    if (given[layer_specular] && given[layer_roughness])
+        return BRUME_OK;
+    return entry(false, "highlights", "no layers specular and roughness: highlights count as diffuse", 0, 0);
+}
+
 brume_status Planner::plan_groups(double pixels, double of_light)
 {
     if (!request_.layers[layer_light_group])
@@ -107,6 +127,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     const bool followed = scene_.gaussian_count <= most_gaussians;
     const double of_light = 200 + 30.0 * scene_.medium->term_count + (followed ? 20.0 * scene_.gaussian_count : 0);
     if (brume_status s = plan_normals(pixels))
+        return s;
+    if (brume_status s = explain_material())
         return s;
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
@@ -153,8 +175,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.help = "lights the picture's surfaces as the scene's lamps do through the medium";
         e.order = 50;
         e.thread_safety = BRUME_THREADS_SAFE;
-        // Pictures whose surfaces emit would be taken for lit ones: only who made the picture knows.
-        e.wanted = BRUME_WANTED_NEVER;
+        // Pictures whose surfaces emit would be taken for lit ones, were it not for these layers.
+        e.wanted = BRUME_WANTED_WITH_LAYERS;
         e.layers = layer_table;
         e.layer_count = layer_count;
         e.uses = used;

@@ -17,20 +17,22 @@ using namespace brume_passes;
 constexpr brume_slot normals_slots[] = {fetch("depth"), write("normals")};
 static_assert(std::size(normals_slots) == normals::slot_count);
 
-constexpr brume_slot group_slots[] = {fetch("rest"),      fetch("lit"),      fetch("group"),
-                                      fetch("depth"),     fetch("normals"),  fetch("lights"),
-                                      fetch("gaussians"), write("rest_out"), write("lit_out")};
+constexpr brume_slot group_slots[] = {fetch("rest"),     fetch("lit"),       fetch("group"),     fetch("depth"),
+                                      fetch("normals"),  fetch("lights"),    fetch("gaussians"), fetch("albedo"),
+                                      fetch("specular"), fetch("roughness"), write("rest_out"),  write("lit_out")};
 static_assert(std::size(group_slots) == group::slot_count);
 
-constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),   fetch("lit"),        fetch("depth"),
-                                        fetch("normals"),     fetch("lights"), fetch("ungrouped"),  fetch("gaussians"),
-                                        fetch("environment"), write("result"), write("surface_out")};
+constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),       fetch("lit"),       fetch("depth"),
+                                        fetch("normals"),     fetch("lights"),     fetch("ungrouped"), fetch("gaussians"),
+                                        fetch("environment"), fetch("albedo"),     fetch("specular"),  fetch("roughness"),
+                                        write("result"),      write("surface_out")};
 static_assert(std::size(compose_slots) == compose::slot_count);
 
 constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, settings, light_count),
                                               BRUME_CONSTANT_OF(Constants, settings, gaussian_count),
                                               BRUME_CONSTANT_OF(Constants, settings, environment_order),
                                               BRUME_CONSTANT_OF(Constants, settings, world_normals),
+                                              BRUME_CONSTANT_OF(Constants, settings, material),
                                               BRUME_CONSTANT(Constants, light),
                                               BRUME_CONSTANT(Constants, first)};
 
@@ -65,6 +67,8 @@ public:
             ++constants_.settings.environment_order;
         const brume_plugin_layer &normal = frame.layers[layer_normal];
         constants_.settings.world_normals = normal.image && normal.kind == BRUME_LAYER_WORLD;
+        const bool glossy = frame.layers[layer_specular].image && frame.layers[layer_roughness].image;
+        constants_.settings.material = frame.layers[layer_albedo].image ? (glossy ? 2 : 1) : 0;
         normals_ = normal.image ? normal.image : state.normals;
         constants_.first = 1;
     }
@@ -103,7 +107,7 @@ brume_status Frame::upload()
 {
     std::vector<float> ungrouped, environment;
     for (uint32_t l = 0; l < scene_.light_count; ++l)
-        ungrouped.push_back(group_of(l) ? 0.0f : 1.0f);
+        ungrouped.push_back(group_of(l) || scene_.lights[l].surfaces == float(BRUME_SURFACES_UNLIT) ? 0.0f : 1.0f);
     for (uint32_t i = 0; i < scene_.environment_count; ++i)
         environment.insert(environment.end(),
                            {scene_.environment[i][0], scene_.environment[i][1], scene_.environment[i][2], 0.0f});
@@ -139,6 +143,9 @@ brume_status Frame::groups()
         images[Slot::normals] = normals_;
         images[lights] = product(product_lights);
         images[gaussians] = product(product_gaussians);
+        images[albedo] = frame_.layers[layer_albedo].image;
+        images[specular] = frame_.layers[layer_specular].image;
+        images[roughness] = frame_.layers[layer_roughness].image;
         now_ = 1 - now_;
         images[rest_out] = state_.rest[now_];
         images[lit_out] = state_.lit[now_];
@@ -163,6 +170,9 @@ brume_status Frame::compose()
     images[ungrouped] = state_.ungrouped;
     images[gaussians] = product(product_gaussians);
     images[environment] = state_.environment;
+    images[albedo] = frame_.layers[layer_albedo].image;
+    images[specular] = frame_.layers[layer_specular].image;
+    images[roughness] = frame_.layers[layer_roughness].image;
     images[result] = frame_.output;
     images[surface_out] = frame_.layers[layer_surface].image;
     return run(state_.compose_pass, images);

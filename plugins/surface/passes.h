@@ -19,11 +19,41 @@ enum Slot { depth, normals, slot_count };
 }
 
 namespace group {
-enum Slot { rest, lit, group, depth, normals, lights, gaussians, rest_out, lit_out, slot_count };
+enum Slot {
+    rest,
+    lit,
+    group,
+    depth,
+    normals,
+    lights,
+    gaussians,
+    albedo,
+    specular,
+    roughness,
+    rest_out,
+    lit_out,
+    slot_count
+};
 }
 
 namespace compose {
-enum Slot { color, rest, lit, depth, normals, lights, ungrouped, gaussians, environment, result, surface_out, slot_count };
+enum Slot {
+    color,
+    rest,
+    lit,
+    depth,
+    normals,
+    lights,
+    ungrouped,
+    gaussians,
+    environment,
+    albedo,
+    specular,
+    roughness,
+    result,
+    surface_out,
+    slot_count
+};
 }
 
 brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last);

@@ -16,6 +16,16 @@ const Constants &constants_of(const brume_plugin_rows &call)
     return *static_cast<const Constants *>(call.constants);
 }
 
+Material material_at(const SurfaceSettings &settings, const brume_plugin_pixels &albedo, const brume_plugin_pixels &specular,
+                     const brume_plugin_pixels &roughness, int x, int y)
+{
+    if (settings.material == 0)
+        return unknown_material();
+    const bool glossy = settings.material > 1;
+    return material_of(settings.material, vec3(load(albedo, x, y)), glossy ? vec3(load(specular, x, y)) : vec3(0.0f),
+                       glossy ? *at(roughness, x, y) : 1.0f);
+}
+
 }  // namespace
 
 brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
@@ -48,8 +58,10 @@ brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t la
                                            vec3(load(slots[group::normals], x, y)));
         const Divided before{vec3(load(slots[group::rest], x, y)),
                              constants.first ? vec3(0.0f) : vec3(load(slots[group::lit], x, y))};
-        const Divided after = divided_by_group(medium, constants.settings, surface, light, gaussians, before,
-                                               vec3(load(slots[group::group], x, y)));
+        const Divided after = divided_by_group(
+            medium, constants.settings, surface, light,
+            material_at(constants.settings, slots[group::albedo], slots[group::specular], slots[group::roughness], x, y),
+            gaussians, before, vec3(load(slots[group::group], x, y)));
         store(slots[group::rest_out], x, y, vec4(after.rest, 1.0f));
         store(slots[group::lit_out], x, y, vec4(after.lit, 1.0f));
     });
@@ -70,8 +82,10 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
         const Divided divided = constants.first
                                     ? Divided{vec3(source), vec3(0.0f)}
                                     : Divided{vec3(load(slots[compose::rest], x, y)), vec3(load(slots[compose::lit], x, y))};
-        const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, surface, vec3(source), divided,
-                                 call->scene->output_limit);
+        const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, surface,
+                                 material_at(constants.settings, slots[compose::albedo], slots[compose::specular],
+                                             slots[compose::roughness], x, y),
+                                 vec3(source), divided, call->scene->output_limit);
         store(slots[compose::result], x, y, vec4(shown, source.w));
         if (slots[compose::surface_out].data)
             store(slots[compose::surface_out], x, y, vec4(shown, 1.0f));

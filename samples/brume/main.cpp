@@ -14,7 +14,7 @@
 int main(int argc, char **argv)
 {
     using namespace brume::tool;
-    CLI::App app{"Fog for finished HDR pictures: EXR frames with depth in, fogged EXR frames out.", "brume"};
+    CLI::App app{"Fog for finished HDR pictures: frames with depth in, fogged frames out.", "brume"};
     app.require_subcommand(1);
     app.set_version_flag("--version",
                          fmt::format("brume {}.{}.{}", BRUME_VERSION_MAJOR, BRUME_VERSION_MINOR, BRUME_VERSION_PATCH));
@@ -25,12 +25,14 @@ int main(int argc, char **argv)
     add_run(app, chosen);
     add_plan(app, chosen);
     add_info(app, chosen);
+    add_sweep(app, chosen);
     add_calibrate(app, chosen);
     add_compare(app, chosen);
     add_bench(app, chosen);
     add_effects(app, chosen);
     add_schema(app, chosen);
     add_sheet(app, chosen);
+    add_stats(app, chosen);
     add_media(app, chosen);
     try {
         app.parse(argc, argv);

@@ -87,7 +87,7 @@ Light read_light(const brume_light *given, const std::string &name)
     read = read_struct(given, read, name.c_str(), &brume_light::type, &brume_light::position, &brume_light::direction,
                        &brume_light::intensity, &brume_light::radius, &brume_light::angle, &brume_light::penumbra,
                        &brume_light::distance, &brume_light::shadow_kind, &brume_light::shadow_depth, &brume_light::shadow_extent,
-                       &brume_light::shadow_to_world);
+                       &brume_light::shadow_to_world, &brume_light::surfaces);
     Light light{
         read.type,     numbers(read.position), numbers(read.direction), numbers(read.intensity), read.radius, read.angle,
         read.penumbra, read.distance};
@@ -95,6 +95,7 @@ Light read_light(const brume_light *given, const std::string &name)
     light.shadow.depth = read.shadow_depth;
     light.shadow.extent = read.shadow_extent;
     std::copy_n(read.shadow_to_world, 16, light.shadow.to_world.begin());
+    light.surfaces = read.surfaces;
     check_light(light, name);
     return light;
 }
@@ -251,6 +252,12 @@ size_t brume_scene_light_shadow_file(brume_scene scene, uint32_t light, char *bu
 {
     const bool there = scene && light < scene->scene.lights.size();
     return copy_text(there ? scene->scene.lights[light].shadow.file : "", buffer, capacity);
+}
+
+size_t brume_scene_light_group(brume_scene scene, uint32_t light, char *buffer, size_t capacity)
+{
+    const bool there = scene && light < scene->scene.lights.size();
+    return copy_text(there ? scene->scene.lights[light].group : "", buffer, capacity);
 }
 
 brume_status brume_scene_get_info(brume_scene handle, brume_scene_info *out)

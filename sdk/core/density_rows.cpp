@@ -6,40 +6,17 @@
 #include "lanes.hpp"
 #include "scene_maths.hpp"
 
+#define PURE [[gnu::always_inline]] inline
+
 namespace brume {
 namespace {
-
-namespace generic {
-using namespace brume::lanes_generic;
-#include "core/density_rows.inc"
-}  // namespace generic
-
-#ifdef BRUME_AVX2
-BRUME_BEGIN_AVX2
-namespace avx2 {
-using namespace brume::lanes_avx2;
-#include "core/density_rows.inc"
-}  // namespace avx2
-BRUME_END_AVX2
-#endif
 
 float *texel(const brume_plugin_pixels &p, int x, int y)
 {
     return p.data + y * p.row_stride + int64_t(x) * p.channels;
 }
 
-}  // namespace
-
-brume_rows_function density_rows()
-{
-#ifdef BRUME_AVX2
-    if (runs_avx2())
-        return avx2::density_rows;
-#endif
-    return generic::density_rows;
-}
-
-brume_status gaussian_density_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+brume_status noisy_density_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     using namespace maths_float;
     const maths_float::Medium medium = medium_of(*call->scene);
@@ -56,6 +33,40 @@ brume_status gaussian_density_rows(const brume_plugin_rows *call, int32_t first,
             to[1] = moment.y;
         }
     return BRUME_OK;
+}
+
+namespace generic {
+using namespace brume::lanes_generic;
+#include "core/density_rows.inc"
+}  // namespace generic
+
+#ifdef BRUME_AVX2
+BRUME_BEGIN_AVX2
+namespace avx2 {
+using namespace brume::lanes_avx2;
+#include "core/density_rows.inc"
+}  // namespace avx2
+BRUME_END_AVX2
+#endif
+
+}  // namespace
+
+brume_rows_function density_rows()
+{
+#ifdef BRUME_AVX2
+    if (runs_avx2())
+        return avx2::density_rows;
+#endif
+    return generic::density_rows;
+}
+
+brume_rows_function gaussian_density_rows()
+{
+#ifdef BRUME_AVX2
+    if (runs_avx2())
+        return avx2::gaussian_density_rows;
+#endif
+    return generic::gaussian_density_rows;
 }
 
 template <int mode> brume_status layer_density_rows(const brume_plugin_rows *call, int32_t first, int32_t last)

@@ -4,7 +4,8 @@
 namespace brume {
 
 // The CPU halves of the host's passes; slots as host_products.cpp lists them.
-brume_status gaussian_density_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+// Of the Gaussians, for this machine's instructions.
+brume_rows_function gaussian_density_rows();
 
 // Of the scene's own density, for this machine's instructions.
 brume_rows_function density_rows();

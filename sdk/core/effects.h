@@ -36,6 +36,7 @@ struct Effect {
     const brume_effect *table = nullptr;
     decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it, as the next
     decltype(brume_effect::makes_with) makes_with = nullptr;
+    decltype(brume_effect::settle) settle = nullptr;
     std::shared_ptr<void> library;  // keeps the code loaded
 };
 

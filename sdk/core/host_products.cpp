@@ -92,7 +92,7 @@ void HostProducts::plan(brume_host_t &host, const std::vector<std::string> &uses
         }
         host.add_entry({sizeof(brume_plugin_entry), 1, "gaussians", "density of the Gaussians along each pixel's ray",
                         uint64_t(pixels * (4 + 8)), uint64_t(pixels * (10 + 40 * length))});
-        gaussian_pass_ = make_pass(host, "gaussians", "gaussian_density.comp", "", gaussian_slots, gaussian_density_rows);
+        gaussian_pass_ = make_pass(host, "gaussians", "gaussian_density.comp", "", gaussian_slots, gaussian_density_rows());
     }
     if (!used("density"))
         return;

@@ -46,6 +46,13 @@ const std::string &JsonNode::string(const std::string &what) const
     expected(what);
 }
 
+bool JsonNode::boolean() const
+{
+    if (const auto *boolean = value_->as<bool>())
+        return *boolean;
+    expected("true or false");
+}
+
 size_t JsonNode::array_size(const std::string &what) const
 {
     if (const auto *array = value_->as<JsonValue::Array>())

@@ -26,6 +26,7 @@ public:
     const JsonValue::Object &object() const;
     double number(const std::string &what) const;
     const std::string &string(const std::string &what) const;
+    bool boolean() const;
     size_t array_size(const std::string &what) const;
     void check_array_size(size_t size, const std::string &what) const;
 

@@ -56,10 +56,15 @@ bool renders(const Medium &medium)
 }
 
 // Whether the scene's content, which names no effects, asks for this one.
-bool wants(const Scene &scene, const Effect &effect)
+bool wants(const Scene &scene, const Effect &effect, const FrameLayers &layers)
 {
-    return scene.medium && !scene.effects_named && effect.refusal.empty() &&
-           (effect.wanted == BRUME_WANTED_WITH_MEDIUM || (effect.wanted == BRUME_WANTED_WITH_LIGHTS && is_lit(scene)));
+    if (!scene.medium || scene.effects_named || !effect.refusal.empty())
+        return false;
+    if (effect.wanted == BRUME_WANTED_WITH_LAYERS)
+        return !scene.lights.empty() && std::any_of(effect.layers.begin(), effect.layers.end(), [&](const Layer &layer) {
+                   return layer.flags & BRUME_LAYER_INPUT && layers.has_input(layer.name);
+               });
+    return effect.wanted == BRUME_WANTED_WITH_MEDIUM || (effect.wanted == BRUME_WANTED_WITH_LIGHTS && is_lit(scene));
 }
 
 }  // namespace
@@ -146,7 +151,7 @@ void brume_host_t::choose_effects()
         effects_.push_back({.effect = &registry.find(settings.name), .named = true});
     for (const Effect &effect : registry.all()) {
         const bool there = std::any_of(effects_.begin(), effects_.end(), [&](auto &p) { return p.effect == &effect; });
-        if (wants(scene_, effect) && !there)
+        if (wants(scene_, effect, layers_) && !there)
             effects_.push_back({.effect = &effect});
         if (scene_.medium && !scene_.effects_named && !is_lit(scene_) && effect.refusal.empty() &&
             effect.wanted == BRUME_WANTED_WITH_LIGHTS)
@@ -201,7 +206,8 @@ bool brume_host_t::is_made_by(const PlannedEffect &planned, std::string_view pro
     if (found == effect.makes.end() || !effect.makes_with)
         return found != effect.makes.end();
     try {
-        return effect.makes_with(planned.parameters.data(), uint32_t(found - effect.makes.begin())) != 0;
+        const auto &values = planned.settled.empty() ? planned.parameters : planned.settled;
+        return effect.makes_with(values.data(), uint32_t(found - effect.makes.begin())) != 0;
     } catch (...) {
         throw Error(BRUME_ERROR_PLUGIN, effect.name + ": threw in makes_with");
     }
@@ -219,7 +225,7 @@ uint32_t brume_host_t::made(std::string_view product) const
         passed = passed || &planned == current_;
         if (!is_made_by(planned, product))
             continue;
-        if (!passed && planned.runs)
+        if (!passed && (planned.runs || settling_))
             return BRUME_MADE_EARLIER;
         if (passed)
             made = BRUME_MADE_LATER;
@@ -240,9 +246,14 @@ void brume_host_t::plan_effects()
     const brume_plugin_scene &scene = content_.plan(scene_, format_);
     if (!effects_.empty() && has_gaussians(scene_))
         need_camera(BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE, "the medium's Gaussians are placed in the world");
+    std::vector<PlannedEffect *> ready;
     for (auto &planned : effects_)
         if (!lacks_layer(planned))
-            plan_effect(planned, scene);
+            ready.push_back(&planned);
+    for (PlannedEffect *planned : ready)
+        settle(*planned, scene);
+    for (PlannedEffect *planned : ready)
+        plan_effect(*planned, scene);
     current_ = nullptr;
     for (auto &planned : effects_)
         if (planned.runs)
@@ -392,9 +403,9 @@ void brume_host_t::update(const Scene &scene, const Format *format)
     content_.scene_changed();
 }
 
-void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene)
+brume_plugin_request brume_host_t::request_of(const PlannedEffect &planned, const std::vector<uint32_t> &layers,
+                                              const brume_plugin_scene &scene) const
 {
-    const std::vector<uint32_t> layers = layers_.given(planned.effect->layers);
     brume_plugin_request request{};
     request.struct_size = sizeof request;
     request.backend = context_->backend->kind();
@@ -409,6 +420,39 @@ void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene 
     request.pose_matters = pose_matters(scene_) ? 1 : 0;
     request.transmittance = scene_.quality.transmittance;
     request.detail = scene_.quality.detail;
+    return request;
+}
+
+void brume_host_t::settle(PlannedEffect &planned, const brume_plugin_scene &scene)
+{
+    planned.settled = planned.parameters;
+    if (!planned.effect->settle)
+        return;
+    const std::vector<uint32_t> layers = layers_.given(planned.effect->layers);
+    const brume_plugin_request request = request_of(planned, layers, scene);
+    current_ = &planned;
+    settling_ = true;
+    failure_.clear();
+    brume_status status = BRUME_OK;
+    auto held = hold_if_unsafe(planned.effect->table);
+    try {
+        status = planned.effect->settle(&services(), this, &request, planned.settled.data());
+    } catch (const std::bad_alloc &) {
+        throw;
+    } catch (...) {
+        throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in settle");
+    }
+    if (status != BRUME_OK)
+        effect_failed(*planned.effect, "settle", status);
+    settling_ = false;
+    current_ = nullptr;
+}
+
+void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene &scene)
+{
+    const std::vector<uint32_t> layers = layers_.given(planned.effect->layers);
+    brume_plugin_request request = request_of(planned, layers, scene);
+    request.parameters = planned.settled.data();
     current_ = &planned;
     failure_.clear();
     size_t first = entries_.size();

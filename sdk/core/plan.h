@@ -28,7 +28,8 @@ struct PlanEntry {
 struct PlannedEffect {
     const Effect *effect = nullptr;
     bool named = false;  // by the scene
-    std::vector<double> parameters{};
+    std::vector<double> parameters{};  // as asked
+    std::vector<double> settled{};     // with what the scene decides
     void *state = nullptr;
     bool runs = false;
     std::vector<Offer> offers{};
@@ -102,6 +103,9 @@ private:
     void order_effects();
     void set_parameters();
     void plan_effects();
+    brume_plugin_request request_of(const brume::PlannedEffect &planned, const std::vector<uint32_t> &layers,
+                                    const brume_plugin_scene &scene) const;
+    void settle(brume::PlannedEffect &planned, const brume_plugin_scene &scene);
     bool lacks_layer(brume::PlannedEffect &planned);
     void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene);
     void take_offers(brume::PlannedEffect &planned, brume_plugin_request request);
@@ -140,6 +144,7 @@ private:
     brume::Products products_;
     brume::HostProducts host_products_;
     std::map<std::pair<const brume::PlannedEffect *, uint32_t>, Data> data_;  // by effect (the host: null) and slot
+    bool settling_ = false;  // what the scene decides of the effects' parameters
     const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
     std::string failure_;
     bool warned_ = false;

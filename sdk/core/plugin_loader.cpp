@@ -231,7 +231,7 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.help = copy_text(table.help, "effect.help");
     if (table.thread_safety > BRUME_THREADS_SAFE)
         refuse("effect.thread_safety: {}; expected a BRUME_THREADS_... of this library", table.thread_safety);
-    if (table.wanted > BRUME_WANTED_WITH_LIGHTS)
+    if (table.wanted > BRUME_WANTED_WITH_LAYERS)
         refuse("effect.wanted: {}; expected a BRUME_WANTED_... of this library", table.wanted);
     if (!table.plan || !table.execute || !table.destroy)
         refuse("effect.{}: NULL; expected a function", !table.plan ? "plan" : !table.execute ? "execute" : "destroy");
@@ -244,6 +244,7 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.table = source;
     effect.offer = table.offer;
     effect.makes_with = table.makes_with;
+    effect.settle = table.settle;
 }
 
 std::shared_ptr<void> open_library(const std::string &file)

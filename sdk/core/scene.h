@@ -89,6 +89,8 @@ struct Light {
     Number penumbra = 0.1;
     Number distance = 0.0;  // scene units
     LightShadow shadow{};
+    uint32_t surfaces = BRUME_SURFACES_LIT;
+    std::string group{};  // layer of the light's own share of pictures, named by the scene's text
 };
 
 // Distant light as real spherical harmonics in world axes.

@@ -136,6 +136,8 @@ void check_shadow(const Light &light, const std::string &name)
 void check_light(const Light &light, const std::string &name)
 {
     check_shadow(light, name);
+    if (light.surfaces > BRUME_SURFACES_UNLIT)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name, light.surfaces));
     if (light.type > BRUME_LIGHT_DIRECTIONAL)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
     check(light.intensity, ranges::not_negative, name + ".intensity");

@@ -34,13 +34,14 @@ Light read_light(const JsonNode &node, const std::filesystem::path &folder)
     const std::string &name = type.string(what);
     Light light;
     if (name == "point") {
-        node.allow_only({"type", "intensity", "position", "radius", "shadow"});
+        node.allow_only({"type", "intensity", "position", "radius", "shadow", "surfaces", "group"});
     } else if (name == "spot") {
         light.type = BRUME_LIGHT_SPOT;
-        node.allow_only({"type", "intensity", "position", "radius", "direction", "angle", "penumbra", "shadow"});
+        node.allow_only(
+            {"type", "intensity", "position", "radius", "direction", "angle", "penumbra", "shadow", "surfaces", "group"});
     } else if (name == "directional") {
         light.type = BRUME_LIGHT_DIRECTIONAL;
-        node.allow_only({"type", "intensity", "direction", "distance", "shadow"});
+        node.allow_only({"type", "intensity", "direction", "distance", "shadow", "surfaces", "group"});
     } else {
         type.expected(what);
     }
@@ -59,7 +60,25 @@ Light read_light(const JsonNode &node, const std::filesystem::path &folder)
         light.distance = read_number(*distance, ranges::not_negative);
     if (const auto shadow = node.find("shadow"))
         light.shadow = read_shadow(*shadow, light.type == BRUME_LIGHT_DIRECTIONAL, folder);
+    if (const auto surfaces = node.find("surfaces"))
+        light.surfaces = surfaces->boolean() ? BRUME_SURFACES_LIT : BRUME_SURFACES_UNLIT;
+    if (const auto group = node.find("group")) {
+        light.group = group->string("the name of a layer");
+        if (light.group.empty())
+            group->expected("the name of a layer");
+        if (light.surfaces == BRUME_SURFACES_UNLIT)
+            group->expected("no group, since surfaces is false");
+    }
     return light;
+}
+
+// Whose a pixel's light is would be known of all of them together only.
+void expect_own_groups(const JsonNode &node, const std::vector<Light> &lights)
+{
+    for (size_t i = 0; i < lights.size(); ++i)
+        for (size_t j = 0; j < i && !lights[i].group.empty(); ++j)
+            if (lights[i].group == lights[j].group)
+                node.item(i).get("group").expected(fmt::format("a group of its own: lights[{}] has this one", j));
 }
 
 }  // namespace
@@ -72,6 +91,7 @@ std::vector<Light> read_lights(const JsonNode &node, const std::filesystem::path
     std::vector<Light> lights;
     for (size_t i = 0; i < count; ++i)
         lights.push_back(read_light(node.item(i), folder));
+    expect_own_groups(node, lights);
     return lights;
 }
 

@@ -47,6 +47,7 @@ brume_plugin_light evaluate(const Light &light, const Pose &pose, const FrameVal
 {
     brume_plugin_light out{};
     out.type = float(light.type);
+    out.surfaces = float(light.surfaces);
     copy(values.get(light.intensity, ranges::not_negative, name.of(".intensity")), out.intensity);
     evaluate_shadow(light.shadow, pose, values, name, out);
     if (light.type != BRUME_LIGHT_POINT)

@@ -163,12 +163,17 @@ Json lights()
     };
     const Json perspective = shadow("vertical_fov", described(reference("field_of_view"), "Of the map's height [degrees]")),
                parallel = shadow("orthographic_width", described(number(ranges::positive), "Of the map; scene units"));
+    const Json surfaces = described({{"type", "boolean"}}, "false: nothing of what surfaces show is this light's; true by default"),
+               group = described({{"type", "string"}, {"minLength", 1}},
+                                 "Layer that has this light's share of the picture, as renderers' light groups do");
     const Json kinds = Json::array(
         {object_of({{"type", type_of_point},
                     {"position", position},
                     {"intensity", radiant},
                     {"radius", radius},
-                    {"shadow", perspective}},
+                    {"shadow", perspective},
+                    {"surfaces", surfaces},
+                    {"group", group}},
                    {"type", "position", "intensity"}),
          object_of({{"type", type_of_spot},
                     {"position", position},
@@ -177,13 +182,17 @@ Json lights()
                     {"radius", radius},
                     {"angle", angle},
                     {"penumbra", penumbra},
-                    {"shadow", perspective}},
+                    {"shadow", perspective},
+                    {"surfaces", surfaces},
+                    {"group", group}},
                    {"type", "position", "direction", "intensity"}),
          object_of({{"type", type_of_sun},
                     {"direction", direction},
                     {"intensity", irradiance},
                     {"distance", distance},
-                    {"shadow", parallel}},
+                    {"shadow", parallel},
+                    {"surfaces", surfaces},
+                    {"group", group}},
                    {"type", "direction", "intensity"})});
     return {{"type", "array"}, {"maxItems", BRUME_MAX_LIGHTS}, {"items", {{"oneOf", kinds}}}};
 }

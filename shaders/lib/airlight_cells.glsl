@@ -146,6 +146,9 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         for (int l = first_light; l < last_light; ++l) {
             Light light = light_at(lights, l);
             Aspect aspect = aspect_of(light, sight.direction);
+            Surroundings around = open_surroundings();
+            if (settings.orders == orders_all)
+                around = surroundings_of(surroundings, l);
             ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadow_slot(settings.shadowed, l), l, sight.direction, end);
             vec3 before = vec3(R(0.0));
             vec3 last = vec3(R(0.0));
@@ -160,7 +163,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                     float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
                     f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
                     if (settings.orders == orders_all)
-                        f += rescattered_strength(medium, light, aspect, settings.ground, sight.direction, t,
+                        f += rescattered_strength(medium, camera, light, aspect, around, sight.direction, t,
                                                   clamp(depth, R(0.0), density_limit));
                 }
                 total.radiance += min(f * coloured[j], vec3(radiance_limit));

@@ -1,20 +1,18 @@
 // What lamps' light that has been scattered before scatters toward the camera: the orders of two and more.
-// Needs airlight_parts.glsl, lamp_field.glsl.
+// Needs airlight_parts.glsl, lamp_field.glsl, surroundings.glsl.
 
-// A plane that ends the medium and takes what falls on it: xyz its normal toward the medium, w the camera's height above it. None
-// where the normal is 0. What the plane gives back is the picture's light.
-PURE float height_above(vec4 ground, vec3 point)
+// How the fluence changes beside a plane that takes what falls on it; extinction: sigma_t r.
+PURE float beside_planes(IN(Rescattered) light, float extinction)
 {
-    return max(dot(vec3(ground.x, ground.y, ground.z), point) + ground.w, R(0.0));
+    return exp(R(0.54) * log(max(extinction, R(1e-30)) / max(light.reduced, R(1e-30))));
 }
 
 // What a black plane leaves of that fluence, by the lamp's image in a plane below it. distance, lamp, point: of the two from each
-// other and from the plane; extinction: sigma_t r.
-PURE float left_by_ground(IN(Rescattered) light, float extinction, float distance, float lamp, float point)
+// other and from the plane; beside: beside_planes(). What the plane gives back is the picture's light.
+PURE float left_by_plane(IN(Rescattered) light, float beside, float distance, float lamp, float point)
 {
     float per_length = light.reduced / max(distance, R(1e-20));
-    float x = exp(R(0.54) * log(max(extinction, R(1e-30)) / max(light.reduced, R(1e-30)))) *
-              (light.reduced + R(1.65) * per_length * (lamp + point));
+    float x = beside * (light.reduced + R(1.65) * per_length * (lamp + point));
     float below = R(0.72) * x / ((x + R(0.9)) * max(per_length, R(1e-20)));
     float aside = max(distance * distance - (lamp - point) * (lamp - point), R(0.0));
     float up = lamp + point + R(2.0) * below;
@@ -22,6 +20,27 @@ PURE float left_by_ground(IN(Rescattered) light, float extinction, float distanc
     if (!(ratio < R(1e15)))
         return R(1.0);
     return clamp(R(1.0) - exp(-light.kappa * max(ratio - R(1.0), R(0.0))) / max(ratio, R(1.0)), R(0.0), R(1.0));
+}
+
+// What all planes leave. Their logarithms add as squares, within a tenth for tunnels, rooms and cubes (lamp_calibration): light that one
+// plane took no other can take. way: of the point from the lamp, in world axes.
+PURE float left_by_planes(IN(Rescattered) light, float extinction, float distance, IN(Surroundings) around, vec3 way)
+{
+    float beside = beside_planes(light, extinction);
+    float squares = R(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (around.low_weight[axis] > R(0.0)) {
+            float left = left_by_plane(light, beside, distance, around.low[axis], max(around.low[axis] + way[axis], R(0.0)));
+            float taken = around.low_weight[axis] * log(max(left, R(1e-12)));
+            squares += taken * taken;
+        }
+        if (around.high_weight[axis] > R(0.0)) {
+            float left = left_by_plane(light, beside, distance, around.high[axis], max(around.high[axis] - way[axis], R(0.0)));
+            float taken = around.high_weight[axis] * log(max(left, R(1e-12)));
+            squares += taken * taken;
+        }
+    }
+    return exp(-sqrt(squares));
 }
 
 // Share of the scattered light, per steradian, that one more scattering turns into a direction at this cosine from the way from
@@ -45,8 +64,8 @@ PURE float spot_spread(IN(Light) light, float mean_cosine, float cosine)
 
 // The source toward the camera at t over sigma_s: what parallel light does is not among it, since it has no end. depth: int rho
 // dt between light and point.
-PURE vec3 rescattered_strength(IN(Medium) medium, IN(Light) light, IN(Aspect) aspect, vec4 ground, vec3 direction, float t,
-                               float depth)
+PURE vec3 rescattered_strength(IN(Medium) medium, IN(Camera) camera, IN(Light) light, IN(Aspect) aspect, IN(Surroundings) around,
+                               vec3 direction, float t, float depth)
 {
     if (light.type == light_directional)
         return vec3(R(0.0));
@@ -55,9 +74,8 @@ PURE vec3 rescattered_strength(IN(Medium) medium, IN(Light) light, IN(Aspect) as
     float d = sqrt(aspect.height * aspect.height + x * x);
     float strength = fluence(d, light.radius);
     float off_axis = dot(from, light.direction) / max(length(from), R(1e-20));
-    bool grounded = ground.x != R(0.0) || ground.y != R(0.0) || ground.z != R(0.0);
-    float lamp = grounded ? height_above(ground, light.position) : R(0.0);
-    float point = grounded ? height_above(ground, t * direction) : R(0.0);
+    bool enclosed = any_plane(around);
+    vec3 way = enclosed ? in_world(camera, from) : vec3(R(0.0));
     vec3 sum = vec3(R(0.0));
     for (int c = 0; c < 3; ++c) {
         if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1]) {
@@ -69,9 +87,9 @@ PURE vec3 rescattered_strength(IN(Medium) medium, IN(Light) light, IN(Aspect) as
         Rescattered r = rescattered(scattering, absorption, medium.asymmetry);
         float share = R(1.0);
         float cosine = r.cosine;
-        if (grounded) {
-            share = left_by_ground(r, scattering + absorption, d, lamp, point);
-            // It takes first what goes far aside.
+        if (enclosed) {
+            share = left_by_planes(r, scattering + absorption, d, around, way);
+            // They take first what goes far aside.
             cosine = min(cosine / max(sqrt(share), R(1e-6)), R(1.0));
         }
         sum[c] = r.fluence * share * turned_again(medium.asymmetry, cosine, -x / d);
@@ -83,7 +101,8 @@ PURE vec3 rescattered_strength(IN(Medium) medium, IN(Light) light, IN(Aspect) as
 
 // The integral over a part of the medium along a path's z in [z, z + dz].
 PURE Panel orders_panel(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES, sampler2D tile_gaussians,
-                        IN(Sight) sight, int index, IN(Light) light, IN(Aspect) aspect, int part, IN(Path) path, float z, float dz)
+                        IN(Sight) sight, int index, IN(Light) light, IN(Surroundings) around, IN(Aspect) aspect, int part,
+                        IN(Path) path, float z, float dz)
 {
     float t[8];
     float p[8];
@@ -116,7 +135,7 @@ PURE Panel orders_panel(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetting
         if (mass[k] > R(0.0)) {
             vec3 point = t[k] * sight.direction;
             float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, index, light, point);
-            f = rescattered_strength(medium, light, aspect, settings.ground, sight.direction, t[k],
+            f = rescattered_strength(medium, camera, light, aspect, around, sight.direction, t[k],
                                      clamp(depth, R(0.0), density_limit));
             f = min(min(f, vec3(radiance_limit)) * mass[k], vec3(radiance_limit)) *
                 transmittance(medium, clamp(p[k], R(0.0), density_limit));
@@ -132,7 +151,8 @@ PURE Panel orders_panel(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetting
 // All that a lamp's scattered light adds to the ray, beside what the ray has already. It falls off as 1 / r from the lamp, which
 // t = foot + h sinh(z) flattens.
 PURE Airlight lamp_orders(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES,
-                          sampler2D tile_gaussians, IN(Sight) sight, int index, IN(Light) light, vec3 terms, vec3 beside)
+                          sampler2D tile_gaussians, IN(Sight) sight, int index, IN(Light) light, IN(Surroundings) around, vec3 terms,
+                          vec3 beside)
 {
     Airlight sum = Airlight(vec3(R(0.0)), vec3(R(0.0)));
     if (light.type == light_directional)
@@ -163,7 +183,8 @@ PURE Airlight lamp_orders(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetti
         float dz = R(1.0);
         while (z < R(1.0)) {
             Panel panel =
-                orders_panel(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, index, light, aspect, part, path, z, dz);
+                orders_panel(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, index, light, around, aspect, part, path,
+                             z, dz);
             --left;
             vec3 so_far = sum.radiance + panel.sum;
             if (panel.doubt > settings.tolerance * (others + (so_far.x + so_far.y + so_far.z) / R(3.0)) && left > 0) {
@@ -185,8 +206,8 @@ PURE Airlight orders_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightS
     vec3 terms = medium.constant > R(0.0) || medium.term_count > 0 ? terms_range(medium, sight) : vec3(R(0.0));
     Airlight sum = Airlight(vec3(R(0.0)), vec3(R(0.0)));
     for (int l = first_light; l < last_light; ++l) {
-        Airlight one = lamp_orders(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, l, light_at(lights, l), terms,
-                                   single + sum.radiance);
+        Airlight one = lamp_orders(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, l, light_at(lights, l),
+                                   surroundings_of(surroundings, l), terms, single + sum.radiance);
         sum.radiance += one.radiance;
         sum.error += one.error;
     }

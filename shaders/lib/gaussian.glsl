@@ -1,4 +1,5 @@
-// Gaussian density terms and their integrals along rays (Zhou et al. 2007 eq. 7 and 31). Needs data.glsl, density.glsl.
+// Gaussian density terms and their integrals along rays (Zhou et al. 2007 eq. 7 and 31). Needs data.glsl, density.glsl,
+// erf.glsl.
 
 struct Gaussian {
     vec3 center;      // camera space [m]
@@ -16,22 +17,6 @@ PURE Gaussian gaussian_at(sampler2D gaussians, int i)
 
 // Arguments beyond are as good as infinite; their squares are finite in 32 bits.
 const float gaussian_limit = R(1e15);
-
-// 2e-9 relative, 4e-7 in 32 bits; no jump where it ends (the cut of the paper's shows once thousands of blobs add up).
-PURE float erf(float x)
-{
-    float y = clamp(x, -R(3.9), R(3.9));
-    float z = y * y;
-    float p = R(1.12837916876) +
-              z * (R(0.185140268601) +
-                   z * (R(0.054222657088) +
-                        z * (R(0.00383605837353) +
-                             z * (R(0.000375806001619) + z * (R(4.58301496177e-6) - z * R(1.26610758936e-8))))));
-    float q = R(1.0) + z * (R(0.497409688375) +
-                            z * (R(0.113856368502) +
-                                 z * (R(0.0154214626185) + z * (R(0.00129974040197) + z * R(6.21535934068e-5)))));
-    return y * p / q;
-}
 
 // e^(x^2) (1 - erf x) for x >= 0: neither under- nor overflows. 4e-9 relative.
 PURE float scaled_erfc(float x)
@@ -55,20 +40,30 @@ PURE float gaussian_area(float a, float width)
     float to = clamp(a + width, -gaussian_limit, gaussian_limit);
     float w = R(0.5) * min(width, gaussian_limit);
     float c = from + w;
-    if (w * max(abs(c), R(1.0)) < R(0.25)) {
+    Bool narrow = w * max(abs(c), R(1.0)) < R(0.25);
+    float area = R(0.0);
+    if (some(narrow)) {
         float w2 = w * w;
         float y = c * c * w2;
         float s = R(1.0) + (R(2.0) * y - w2) / R(3.0) + (R(4.0) * y * y - R(12.0) * y * w2 + R(3.0) * w2 * w2) / R(30.0) +
                   (R(8.0) * y * y * y - R(60.0) * y * y * w2 + R(90.0) * y * w2 * w2 - R(15.0) * w2 * w2 * w2) / R(630.0);
-        return R(2.0) * w * exp(-c * c) * s;
+        area = R(2.0) * w * exp(-c * c) * s;
     }
-    // Not |c| -+ w: of a long interval the middle forgets where it begins.
-    float nearer = from * to < R(0.0) ? -min(abs(from), abs(to)) : min(abs(from), abs(to));
-    float farther = max(abs(from), abs(to));
-    const float half_root_pi = R(0.886226925453);
-    if (nearer > R(0.5))
-        return half_root_pi * (scaled_erfc(nearer) * exp(-nearer * nearer) - scaled_erfc(farther) * exp(-farther * farther));
-    return half_root_pi * (erf(farther) - erf(nearer));
+    if (some(!narrow)) {
+        // Not |c| -+ w: of a long interval the middle forgets where it begins.
+        float least = min(abs(from), abs(to));
+        float nearer = choose(from * to < R(0.0), -least, least);
+        float farther = max(abs(from), abs(to));
+        Bool flank = nearer > R(0.5);
+        const float half_root_pi = R(0.886226925453);
+        float wide = R(0.0);
+        if (some(flank))
+            wide = half_root_pi * (scaled_erfc(nearer) * exp(-nearer * nearer) - scaled_erfc(farther) * exp(-farther * farther));
+        if (some(!flank))
+            wide = choose(flank, wide, half_root_pi * (erf(farther) - erf(nearer)));
+        area = choose(narrow, area, wide);
+    }
+    return area;
 }
 
 // A Gaussian's density along a ray: peak exp(-(a (t - middle))^2).
@@ -108,7 +103,7 @@ PURE float profile_integral(IN(Profile) p, float from, float to)
 // The same to 4e-7 of the whole line's integral, which is what an exponent needs, and cheaper.
 PURE float profile_depth(IN(Profile) p, float from, float to)
 {
-    if (p.peak <= R(0.0))
+    if (!some(p.peak > R(0.0)))
         return R(0.0);
     float sum = erf(p.scale * (to - p.middle)) - erf(p.scale * (from - p.middle));
     return min(R(0.886226925453) * profile_length(p) * max(sum, R(0.0)), density_limit);
@@ -127,13 +122,14 @@ PURE vec2 profile_density_moment(IN(Profile) p, float distance)
     float a = clamp(-p.scale * p.middle, -gaussian_limit, gaussian_limit);
     float width = p.scale * distance;
     // Cut off at both ends alike, so that what is before the middle of a long way stays before it.
-    if (width >= gaussian_limit || abs(a) >= gaussian_limit)
-        width = clamp(p.scale * (distance - p.middle), -gaussian_limit, gaussian_limit) - a;
+    width = choose(width >= gaussian_limit || abs(a) >= gaussian_limit,
+                   clamp(p.scale * (distance - p.middle), -gaussian_limit, gaussian_limit) - a, width);
     width = max(width, R(1e-30));
     float area = gaussian_area(a, width);
     float b = a + width;
+    Bool short_way = width * max(abs(a), R(1.0)) < R(0.5);
     float moment = R(0.0);
-    if (width * max(abs(a), R(1.0)) < R(0.5)) {
+    if (some(short_way)) {
         // Simpson-like by Gauss-Legendre: the integrand is nearly a parabola.
         float h = R(0.387298334621);  // sqrt(3/5) / 2
         float l = a + width * (R(0.5) - h);
@@ -141,10 +137,12 @@ PURE vec2 profile_density_moment(IN(Profile) p, float distance)
         float r = a + width * (R(0.5) + h);
         moment = width * (R(5.0) * (R(0.5) + h) * (R(0.5) + h) * exp(-l * l) + R(2.0) * exp(-m * m) +
                           R(5.0) * (R(0.5) - h) * (R(0.5) - h) * exp(-r * r)) / R(18.0);
-    } else if (area > R(1e-30)) {
+    }
+    if (some(!short_way)) {
         float s = b / width;
-        moment = (R(0.5) / width / width + s * s) * area + R(0.5) * s / width * exp(-b * b) -
-                 (s - R(0.5) * a / width) / width * exp(-a * a);
+        float of_long = (R(0.5) / width / width + s * s) * area + R(0.5) * s / width * exp(-b * b) -
+                        (s - R(0.5) * a / width) / width * exp(-a * a);
+        moment = choose(short_way, moment, choose(area > R(1e-30), of_long, R(0.0)));
     }
     float scale = profile_length(p);
     return vec2(min(scale * area, density_limit), min(scale * clamp(moment, R(0.0), area), density_limit));

@@ -9,8 +9,8 @@ const float largest_asymmetry = R(0.9999);
 PURE float henyey_greenstein(float asymmetry, float cosine)
 {
     float g = clamp(asymmetry, -largest_asymmetry, largest_asymmetry);
-    float s = g >= R(0.0) ? (R(1.0) - g) * (R(1.0) - g) + R(2.0) * g * max(R(1.0) - cosine, R(0.0))
-                          : (R(1.0) + g) * (R(1.0) + g) - R(2.0) * g * max(R(1.0) + cosine, R(0.0));
+    float s = choose(g >= R(0.0), (R(1.0) - g) * (R(1.0) - g) + R(2.0) * g * max(R(1.0) - cosine, R(0.0)),
+                     (R(1.0) + g) * (R(1.0) + g) - R(2.0) * g * max(R(1.0) + cosine, R(0.0)));
     return (R(1.0) - g * g) / (R(4.0) * pi * s * sqrt(s));
 }
 
@@ -26,7 +26,7 @@ PURE float draine(float asymmetry, float alpha, float cosine)
 PURE float phase(IN(Medium) medium, float cosine)
 {
     float p = henyey_greenstein(medium.phase.x, cosine);
-    if (medium.phase.w > R(0.0))
+    if (some(medium.phase.w > R(0.0)))
         p = mix(p, draine(medium.phase.y, medium.phase.z, cosine), medium.phase.w);
     return p;
 }

@@ -19,6 +19,9 @@ float choose(bool which, float a, float b)
     return which ? a : b;
 }
 
+// Whether that is so of any of the pixels side by side.
+#define some(truth) (truth)
+
 // By bits: compilers may assume that isnan() and isinf() are false.
 bool is_finite(float x)
 {

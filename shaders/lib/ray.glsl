@@ -3,6 +3,9 @@
 // Stands for infinity where shaders may not rely on IEEE infinities: products with it stay finite in 32 bits.
 const float far_away = R(1e30);
 
+// Farther away no medium that lamps shine through is told apart.
+const float farthest_surface = R(1e12);
+
 const int depth_planar = 0;
 const int depth_ray = 1;
 const int depth_inverse = 2;

@@ -1,4 +1,5 @@
-// Optical depth of the Gaussians between an origin and a point, by lists. Needs scene.glsl, gaussian.glsl, light.glsl.
+// Optical depth of the Gaussians between an origin and a point, by lists. Needs scene.glsl, gaussian.glsl, light.glsl,
+// octahedral.glsl.
 //
 // Origin 0 is the camera, origin 1 + l is light l. Around each, directions fall into grid x grid cells, and each cell lists
 // the Gaussians that a ray of such a direction may meet:
@@ -12,29 +13,6 @@
 // that lights' lists outlive a turn of the camera.
 #define SHADOW_IMAGES sampler2D gaussians, sampler2D cells, sampler2D cell_gaussians, sampler2D shadow_origins
 #define SHADOW_PASSED gaussians, cells, cell_gaussians, shadow_origins
-
-// The sphere onto the unit square: Cigolle et al. 2014, "A survey of efficient representations for independent unit
-// vectors". d need not be of unit length.
-PURE vec2 octahedral(vec3 d)
-{
-    vec3 n = d / max(abs(d.x) + abs(d.y) + abs(d.z), R(1e-30));
-    vec2 p = vec2(n.x, n.y);
-    if (n.z < R(0.0))
-        p = vec2((R(1.0) - abs(n.y)) * (n.x >= R(0.0) ? R(1.0) : -R(1.0)),
-                 (R(1.0) - abs(n.x)) * (n.y >= R(0.0) ? R(1.0) : -R(1.0)));
-    return vec2(R(0.5) * p.x + R(0.5), R(0.5) * p.y + R(0.5));
-}
-
-PURE vec3 octahedral_direction(vec2 square)
-{
-    vec2 p = vec2(R(2.0) * square.x - R(1.0), R(2.0) * square.y - R(1.0));
-    float z = R(1.0) - abs(p.x) - abs(p.y);
-    if (z < R(0.0))
-        p = vec2((R(1.0) - abs(p.y)) * (p.x >= R(0.0) ? R(1.0) : -R(1.0)),
-                 (R(1.0) - abs(p.x)) * (p.y >= R(0.0) ? R(1.0) : -R(1.0)));
-    vec3 d = vec3(p.x, p.y, z);
-    return d / length(d);
-}
 
 PURE int cell_of(vec2 square, int grid)
 {

@@ -10,15 +10,21 @@
 // from surface to surface, must not be taken for it.
 const float least_cosine = R(0.1);
 
-// What a surface receives of a lamp over what it would in clear air. scattering, absorption: optical depths of the way.
-PURE float received_share(float scattering, float absorption, float asymmetry, float cosine)
+// Of a lamp's irradiance in clear air facing it: what comes the lamp's way, and what comes from aside and has no cosine.
+struct Received {
+    float along;
+    float aside;
+};
+
+// scattering, absorption: optical depths of the way.
+PURE Received received(float scattering, float absorption, float asymmetry, float cosine)
 {
     float g = clamp(asymmetry, -largest_asymmetry, largest_asymmetry);
     float s = min(scattering, orders_depth_limit);
     float d = min(absorption, orders_depth_limit);
     float x = d + (R(1.0) - g) * s;
     if (!(x > R(1e-9)))
-        return R(1.0);
+        return Received(R(1.0), R(0.0));
     float a = d / x;
     float c = clamp(cosine, R(0.0), R(1.0));
     float up = c * x + R(1.42);
@@ -30,7 +36,14 @@ PURE float received_share(float scattering, float absorption, float asymmetry, f
                  (R(1.0) - c) * (R(0.18) + forward * (R(0.88) - R(0.65) * forward));
     float net = net_flux(s, d, g);
     float aside = image + once * x / (R(1.0) + (R(10.7) - R(4.3) * forward) * x * x) * net;
-    return max(net + (R(1.0) - a) * aside / max(c, least_cosine), R(0.0));
+    return Received(net, (R(1.0) - a) * aside);
+}
+
+// What a surface receives of a lamp over what it would in clear air.
+PURE float received_share(float scattering, float absorption, float asymmetry, float cosine)
+{
+    Received r = received(scattering, absorption, asymmetry, cosine);
+    return max(r.along + r.aside / max(cosine, least_cosine), R(0.0));
 }
 
 // Where the surface is, and how it lies.
@@ -39,9 +52,6 @@ struct Surface {
     vec3 point;   // camera space [m]
     vec3 normal;  // unit; 0 where nobody knows it: then it counts as facing every lamp
 };
-
-// Farther away no medium that lamps shine through is told apart.
-const float farthest_surface = R(1e12);
 
 PURE Surface surface_at(IN(Ray) ray, vec3 normal)
 {
@@ -83,19 +93,25 @@ PURE vec3 clear_irradiance(IN(Surface) surface, IN(Light) light)
     return min(min(strength, radiance_limit) * light.intensity, vec3(radiance_limit));
 }
 
-// received_share() of each colour. Parallel light comes through a medium that has no end, which the model does not know: its share
-// stays as it is.
-PURE vec3 received_of_light(IN(Medium) medium, IN(Surface) surface, IN(Light) light, sampler2D gaussians, int gaussian_count)
+// int rho dt between a surface and a lamp.
+PURE float density_to_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) light, sampler2D gaussians, int gaussian_count)
 {
-    if (light.type == light_directional)
-        return vec3(R(1.0));
     vec3 way = light.position - surface.point;
     float distance = length(way);
     vec3 direction = way / max(distance, R(1e-20));
     float p = terms_to_light(medium, light, surface.point);
     for (int i = 0; i < gaussian_count; ++i)
         p += profile_depth(profile_along(gaussian_at(gaussians, i), surface.point, direction), R(0.0), distance);
-    p = clamp(p, R(0.0), density_limit);
+    return clamp(p, R(0.0), density_limit);
+}
+
+// received_share() of each colour. Parallel light comes through a medium that has no end, which the model does not know: its share
+// stays as it is.
+PURE vec3 received_of_light(IN(Medium) medium, IN(Surface) surface, IN(Light) light, sampler2D gaussians, int gaussian_count)
+{
+    if (light.type == light_directional)
+        return vec3(R(1.0));
+    float p = density_to_lamp(medium, surface, light, gaussians, gaussian_count);
     float cosine = cosine_to(surface, light);
     vec3 share = vec3(R(1.0));
     for (int c = 0; c < 3; ++c) {
@@ -106,6 +122,85 @@ PURE vec3 received_of_light(IN(Medium) medium, IN(Surface) surface, IN(Light) li
                                       min(medium.absorption[c] * p, orders_depth_limit), medium.asymmetry, cosine);
     }
     return share;
+}
+
+// What the picture's maker knows of the surface.
+struct Material {
+    Bool known;     // albedo is
+    vec3 albedo;    // of diffuse reflection
+    vec3 specular;  // of glossy reflection; 0 where nobody knows
+    Bool tint;      // specular is the colour of a dielectric's reflection, of which it reflects as much as Fresnel says
+    float exponent; // of Phong's lobe that stands for it
+};
+
+PURE Material unknown_material()
+{
+    return Material(false, vec3(R(0.0)), vec3(R(0.0)), false, R(1.0));
+}
+
+// roughness: as renderers have it, the root of a microfacet distribution's alpha.
+PURE float phong_exponent(float roughness)
+{
+    float alpha = clamp(roughness * roughness, R(0.005), R(1.0));
+    return R(0.5) / (alpha * alpha) - R(0.5);
+}
+
+PURE Material material_of(int parts, vec3 albedo, vec3 specular, float roughness)
+{
+    if (parts == 0)
+        return unknown_material();
+    Bool glossy = parts > 1 && is_finite(roughness) && roughness < R(1.0);
+    vec3 of_gloss = glossy ? clamp(finite_or_zero(specular), vec3(R(0.0)), vec3(R(1.0))) : vec3(R(0.0));
+    vec3 of_all = clamp(finite_or_zero(albedo), vec3(R(0.0)), vec3(R(1.0)));
+    vec3 both = of_all + of_gloss;
+    // No surface reflects more than it receives.
+    Bool tint = max(max(both.x, both.y), both.z) > R(1.0);
+    return Material(true, of_all, of_gloss, tint, glossy ? phong_exponent(roughness) : R(1.0));
+}
+
+// What a lamp's part of the picture becomes: `own`, and what the medium brings to where it is not. Diffuse light that came straight keeps
+// to its way and the rest comes from aside, so that shadows and sides turned away get theirs. A highlight keeps e^-tau; what has
+// been scattered makes one as wide as it comes: the mean cosines of the lobe and of the light multiply.
+PURE vec3 lit_by_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) light, IN(Material) material, sampler2D gaussians,
+                      int gaussian_count, vec3 own)
+{
+    if (!material.known || light.type == light_directional || surface.normal == vec3(R(0.0)))
+        return own * received_of_light(medium, surface, light, gaussians, gaussian_count);
+    float p = density_to_lamp(medium, surface, light, gaussians, gaussian_count);
+    vec3 from = surface.point - light.position;
+    float distance = max(length(from), smallest_light);
+    vec3 to_lamp = -from / distance;
+    vec3 view = surface.point / max(length(surface.point), R(1e-20));
+    float grazing = clamp(R(1.0) + dot(view, surface.normal), R(0.0), R(1.0));
+    float twice = grazing * grazing;
+    vec3 gloss = material.specular * (material.tint ? R(0.04) + R(0.96) * twice * twice * grazing : R(1.0));
+    vec3 mirrored = view - R(2.0) * dot(view, surface.normal) * surface.normal;
+    float mirror_cosine = dot(mirrored, to_lamp);
+    float cosine = cosine_to(surface, light);
+    float strength = min(fluence(distance, light.radius), radiance_limit);
+    // What leaves a spot's cone is not followed.
+    float straight = light.type == light_spot ? spot_factor(light, dot(from, light.direction) / distance) : R(1.0);
+    float n = material.exponent;
+    float lobe = cosine > R(0.0) && mirror_cosine > R(0.0)
+                     ? straight * (n + R(1.0)) / (R(2.0) * pi) * exp(n * log(max(mirror_cosine, R(1e-6))))
+                     : R(0.0);
+    vec3 sum = vec3(R(0.0));
+    for (int c = 0; c < 3; ++c) {
+        float scattering = min(medium.scattering[c] * p, orders_depth_limit);
+        float absorption = min(medium.absorption[c] * p, orders_depth_limit);
+        Received r = received(scattering, absorption, medium.asymmetry, cosine);
+        float intensity = min(strength * light.intensity[c], radiance_limit);
+        float highlight = min(gloss[c] * lobe * intensity, max(own[c], R(0.0)));
+        Rescattered again = rescattered(scattering, absorption, medium.asymmetry);
+        // From behind less comes: the first moments of light of this mean cosine.
+        float behind = exp(R(2.0) * again.cosine * min(cosine, R(0.0)));
+        float width = again.cosine * (n + R(1.0)) / (n + R(2.0));
+        float brought = material.albedo[c] / pi * behind * r.aside +
+                        gloss[c] * again.fluence * henyey_greenstein(width, mirror_cosine);
+        sum[c] = min((own[c] - highlight) * r.along + highlight * exp(-(scattering + absorption)) +
+                         min(intensity * straight, radiance_limit) * brought, radiance_limit);
+    }
+    return sum;
 }
 
 // Irradiance by an environment of `order` degrees of spherical harmonics (environment.glsl), of which those above 2 hardly count.
@@ -130,6 +225,7 @@ struct SurfaceSettings {
     int gaussian_count;
     int environment_order;
     int world_normals;
+    int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
 };
 
 // normal: of the layer, or of normal_by_depth().
@@ -141,26 +237,27 @@ PURE Surface surface_of(IN(Camera) camera, IN(SurfaceSettings) settings, vec2 pi
 #define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D gaussians, sampler2D environment
 #define SURFACE_PASSED lights, ungrouped, gaussians, environment
 
-// The factor of what no lamp's own layer has: the lamps' factors by what they give in clear air, and 1 for the environment's
-// part. ungrouped: of each light, 1 where it has a part in that.
-PURE vec3 received_of_rest(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES,
-                           IN(Surface) surface)
+// What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's, which stays.
+// ungrouped: of each light, 1 where it has a part in that.
+PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
+                        IN(Material) material, vec3 rest)
 {
     vec3 all = vec3(R(0.0));
+    for (int l = 0; l < settings.light_count; ++l)
+        if (data_texel(ungrouped, l).x != R(0.0))
+            all = min(all + clear_irradiance(surface, light_at(lights, l)), vec3(radiance_limit));
+    if (settings.environment_order > 0)
+        all += environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
     vec3 change = vec3(R(0.0));
     for (int l = 0; l < settings.light_count; ++l) {
         if (data_texel(ungrouped, l).x == R(0.0))
             continue;
         Light light = light_at(lights, l);
-        vec3 clear = clear_irradiance(surface, light);
-        if (clear == vec3(R(0.0)))
-            continue;
-        all = min(all + clear, vec3(radiance_limit));
-        change += clear * (received_of_light(medium, surface, light, gaussians, settings.gaussian_count) - vec3(R(1.0)));
+        vec3 own = rest * (clear_irradiance(surface, light) / max(all, vec3(R(1e-30))));
+        if (own != vec3(R(0.0)) || material.known)
+            change += lit_by_lamp(medium, surface, light, material, gaussians, settings.gaussian_count, own) - own;
     }
-    if (settings.environment_order > 0)
-        all += environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
-    return max(vec3(R(1.0)) + change / max(all, vec3(R(1e-30))), vec3(R(0.0)));
+    return max(rest + change, min(rest, vec3(R(0.0))));
 }
 
 // What a pixel shows of surfaces before and after: what is still to be divided among lamps, and what was.
@@ -171,21 +268,22 @@ struct Divided {
 
 // group: the lamp's own layer of the picture.
 PURE Divided divided_by_group(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
-                              sampler2D gaussians, IN(Divided) pixel, vec3 group)
+                              IN(Material) material, sampler2D gaussians, IN(Divided) pixel, vec3 group)
 {
     vec3 own = finite_or_zero(group);
-    vec3 share = surface.seen ? received_of_light(medium, surface, light, gaussians, settings.gaussian_count) : vec3(R(1.0));
-    return Divided(pixel.rest - own, pixel.lit + own * share);
+    vec3 becomes = own;
+    if (surface.seen)
+        becomes = lit_by_lamp(medium, surface, light, material, gaussians, settings.gaussian_count, own);
+    return Divided(pixel.rest - own, min(pixel.lit + becomes, vec3(radiance_limit)));
 }
 
 // The pixel in the end; source: as it was.
 PURE vec3 relit(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
-                vec3 source, IN(Divided) pixel, float limit)
+                IN(Material) material, vec3 source, IN(Divided) pixel, float limit)
 {
     if (!surface.seen)
         return source;
-    vec3 share = received_of_rest(medium, camera, settings, SURFACE_PASSED, surface);
-    vec3 sum = finite_or_zero(pixel.rest) * share + pixel.lit;
+    vec3 sum = rest_received(medium, camera, settings, SURFACE_PASSED, surface, material, finite_or_zero(pixel.rest)) + pixel.lit;
     return vec3(composed(source.x, R(0.0), sum.x, limit), composed(source.y, R(0.0), sum.y, limit),
                 composed(source.z, R(0.0), sum.z, limit));
 }

@@ -17,7 +17,7 @@ PURE float gaussian_reach(IN(Medium) medium, IN(Gaussian) g)
 }
 
 // Much of a list is passed at a distance: whether a path that meets it so is as good as without this Gaussian.
-PURE bool passed_by(IN(Medium) medium, IN(Gaussian) g, IN(Profile) along)
+PURE Bool passed_by(IN(Medium) medium, IN(Gaussian) g, IN(Profile) along)
 {
     vec3 extinction = medium.scattering + medium.absorption;
     float most = max(max(extinction.x, extinction.y), extinction.z);
@@ -33,21 +33,19 @@ PURE ivec2 tile_range(sampler2D tiles, int width, ivec2 pixel)
     return ivec2(int(range.x), int(range.y));
 }
 
-// Of all Gaussians along the pixel's ray: int rho dt to what it shows, and int rho (1 - t/D)^2 dt.
-PURE vec2 tile_density(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians, sampler2D tiles, sampler2D tile_gaussians,
-                       int width, ivec2 pixel, float raw_depth)
+// Of the Gaussians tile_gaussians[range.x .. range.x + range.y) along a ray.
+PURE vec2 listed_moment(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians, sampler2D tile_gaussians, ivec2 range, IN(Ray) ray)
 {
-    Ray ray = pixel_ray(camera, vec2(pixel) + R(0.5), raw_depth);
     vec2 sum = vec2(R(0.0));
-    if (ray.keep)
-        return sum;
-    ivec2 range = tile_range(tiles, width, pixel);
-    for (int i = 0; i < range.y; ++i) {
-        int index = int(data_texel(tile_gaussians, range.x + i).x);
-        Gaussian g = gaussian_at(gaussians, index);
-        Profile p = sight_profile(medium, camera, g, ray.direction);
-        if (!passed_by(medium, g, p))
-            sum += profile_density_moment(p, ray.distance);
-    }
+    if (some(!ray.keep))
+        for (int i = 0; i < range.y; ++i) {
+            Gaussian g = gaussian_at(gaussians, int(data_texel(tile_gaussians, range.x + i).x));
+            Profile p = sight_profile(medium, camera, g, ray.direction);
+            Bool passed = ray.keep || passed_by(medium, g, p);
+            if (some(!passed)) {
+                vec2 moment = profile_density_moment(p, ray.distance);
+                sum += vec2(choose(passed, R(0.0), moment.x), choose(passed, R(0.0), moment.y));
+            }
+        }
     return sum;
 }

@@ -4,6 +4,7 @@
 #include "density.glsl"
 #include "radiance.glsl"
 #include "data.glsl"
+#include "erf.glsl"
 #include "gaussian.glsl"
 #include "noise.glsl"
 #include "tiles.glsl"
@@ -11,8 +12,12 @@
 #include "upsample.glsl"
 #include "phase.glsl"
 #include "light.glsl"
+#include "light_cone.glsl"
+#include "lit.glsl"
+#include "octahedral.glsl"
 #include "shadow.glsl"
 #include "shadow_map.glsl"
+#include "surroundings.glsl"
 #include "airlight.glsl"
 #include "airlight_sun.glsl"
 #include "airlight_fogshop.glsl"
@@ -42,6 +47,7 @@ uniform sampler2D cell_gaussians;
 uniform sampler2D shadow_origins;
 uniform sampler2D blob_density;
 uniform sampler2D sun_table;
+uniform sampler2D surroundings;
 uniform sampler2D environment;
 uniform sampler2D environment_table;
 uniform sampler2D light_shadows;

@@ -2,9 +2,11 @@
 #include "ray.glsl"
 #include "density.glsl"
 #include "data.glsl"
+#include "erf.glsl"
 #include "gaussian.glsl"
 #include "noise.glsl"
 #include "tiles.glsl"
+#include "tile_density.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;

@@ -4,9 +4,13 @@
 #include "density.glsl"
 #include "radiance.glsl"
 #include "data.glsl"
+#include "erf.glsl"
 #include "gaussian.glsl"
 #include "phase.glsl"
 #include "light.glsl"
+#include "light_cone.glsl"
+#include "lit.glsl"
+#include "octahedral.glsl"
 #include "shadow.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
@@ -26,8 +30,14 @@ uniform sampler2D lights;
 uniform sampler2D ungrouped;
 uniform sampler2D gaussians;
 uniform sampler2D environment;
+uniform sampler2D albedo;
+uniform sampler2D specular;
+uniform sampler2D roughness;
 writeonly uniform image2D result;
 writeonly uniform image2D surface_out;
+
+#define MATERIAL_AT(p) material_of(settings.material, texelFetch(albedo, p, 0).rgb, texelFetch(specular, p, 0).rgb, \
+                                   texelFetch(roughness, p, 0).r)
 
 void main()
 {
@@ -37,7 +47,7 @@ void main()
     vec4 source = texelFetch(color, p, 0);
     Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided divided = first != 0 ? Divided(source.rgb, vec3(0.0)) : Divided(texelFetch(rest, p, 0).rgb, texelFetch(lit, p, 0).rgb);
-    vec3 shown = relit(brume_medium, brume_camera, settings, SURFACE_PASSED, surface, source.rgb, divided, brume_output_limit);
+    vec3 shown = relit(brume_medium, brume_camera, settings, SURFACE_PASSED, surface, MATERIAL_AT(p), source.rgb, divided, brume_output_limit);
     imageStore(result, p, vec4(shown, source.a));
     imageStore(surface_out, p, vec4(shown, 1.0));
 }

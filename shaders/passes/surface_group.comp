@@ -4,9 +4,13 @@
 #include "density.glsl"
 #include "radiance.glsl"
 #include "data.glsl"
+#include "erf.glsl"
 #include "gaussian.glsl"
 #include "phase.glsl"
 #include "light.glsl"
+#include "light_cone.glsl"
+#include "lit.glsl"
+#include "octahedral.glsl"
 #include "shadow.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
@@ -24,8 +28,14 @@ uniform sampler2D depth;
 uniform sampler2D normals;
 uniform sampler2D lights;
 uniform sampler2D gaussians;
+uniform sampler2D albedo;
+uniform sampler2D specular;
+uniform sampler2D roughness;
 writeonly uniform image2D rest_out;
 writeonly uniform image2D lit_out;
+
+#define MATERIAL_AT(p) material_of(settings.material, texelFetch(albedo, p, 0).rgb, texelFetch(specular, p, 0).rgb, \
+                                   texelFetch(roughness, p, 0).r)
 
 void main()
 {
@@ -34,7 +44,8 @@ void main()
         return;
     Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided before = Divided(texelFetch(rest, p, 0).rgb, first != 0 ? vec3(0.0) : texelFetch(lit, p, 0).rgb);
-    Divided after = divided_by_group(brume_medium, settings, surface, light_at(lights, light), gaussians, before,
+    Divided after = divided_by_group(brume_medium, settings, surface, light_at(lights, light),
+                                     MATERIAL_AT(p), gaussians, before,
                                      texelFetch(group, p, 0).rgb);
     imageStore(rest_out, p, vec4(after.rest, 1.0));
     imageStore(lit_out, p, vec4(after.lit, 1.0));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -260,6 +261,85 @@ inline std::vector<GroundCell> trace_over_ground(double g, double height, int ph
             out.push_back({asides[r], heights[z], 4 * pi * t.sum / (photons * volume * scale),
                            t.sum > 0 ? std::sqrt(t.square) / t.sum : 1});
         }
+    return out;
+}
+
+// Black walls around a lamp at the origin, in units of a room's size; infinite: there is none.
+struct Room {
+    const char *name;
+    vec3 low, high;
+};
+
+constexpr double no_wall = std::numeric_limits<double>::infinity();
+inline const Room rooms[] = {{"floor", {-no_wall, -no_wall, -1}, {no_wall, no_wall, no_wall}},
+                             {"two walls", {-1, -no_wall, -no_wall}, {1, no_wall, no_wall}},
+                             {"corner", {-1, -no_wall, -1}, {no_wall, no_wall, no_wall}},
+                             {"corridor", {-1, -no_wall, -1}, {1, no_wall, no_wall}},
+                             {"tunnel", {-1, -no_wall, -1}, {1, no_wall, 1}},
+                             {"cube", {-1, -1, -1}, {1, 1, 1}},
+                             {"room", {-2, -3, -1}, {2, 3, 0.6}}};
+
+struct RoomPoint {
+    vec3 way{};          // from the lamp [1 / s']
+    double fluence = 0;  // of what has scattered at least once and touched no wall
+    double deviation = 0;
+};
+
+// Spheres of a fifth of the room's size [1 / s'], no absorption.
+inline std::vector<RoomPoint> trace_in_room(const Room &room, double g, double size, int photons, uint64_t seed)
+{
+    const double scale = 1 / (1 - g), unit = size * scale, radius = 0.2 * unit, limit = 40 * scale, nearest = 1e-2 * unit,
+                 span = std::log(limit / nearest);
+    struct Tally {
+        vec3 at;
+        double sum = 0, square = 0, now = 0;
+    };
+    std::vector<Tally> tallies;
+    for (const vec3 at :
+         {vec3(0.4, 0.3, -0.3), vec3(-0.3, 0.8, 0.1), vec3(0.2, -0.5, -0.7), vec3(0.7, 1.5, -0.2), vec3(0.1, 2.5, 0.3)})
+        if (glm::all(glm::greaterThanEqual(at - 0.2, room.low)) && glm::all(glm::lessThanEqual(at + 0.2, room.high)))
+            tallies.push_back({unit * at});
+    Random random(seed);
+    for (int n = 0; n < photons; ++n) {
+        vec3 p(0), d = uniform_direction(random);
+        double flight = random() < 0.5 ? -std::log(random()) : nearest * std::exp(span * random());
+        const double weight =
+            std::exp(-flight) / (0.5 * std::exp(-flight) + (flight > nearest && flight < limit ? 0.5 / (span * flight) : 0));
+        for (int order = 0; glm::dot(p, p) < limit * limit; ++order) {
+            if (order > 0) {
+                d = turned(d, sampled_cosine(g, random), 2 * pi * random());
+                flight = -std::log(random());
+            }
+            double wall = no_wall;
+            for (int axis = 0; axis < 3; ++axis)
+                wall = std::min(wall, (unit * (d[axis] > 0 ? room.high : room.low)[axis] - p[axis]) / d[axis]);
+            for (Tally &t : tallies) {
+                const vec3 to = t.at - p;
+                const double along = glm::dot(to, d), square = radius * radius - (glm::dot(to, to) - along * along);
+                if (order == 0 || square <= 0)
+                    continue;
+                // By what the flight is expected to.
+                const double from = std::max(along - std::sqrt(square), 0.0),
+                             end = std::min(along + std::sqrt(square), wall);
+                if (end > from)
+                    t.now += weight * (std::exp(-from) - std::exp(-end));
+            }
+            if (wall <= flight)
+                break;
+            p += flight * d;
+        }
+        for (Tally &t : tallies) {
+            t.sum += t.now;
+            t.square += t.now * t.now;
+            t.now = 0;
+        }
+    }
+    std::vector<RoomPoint> out;
+    for (const Tally &t : tallies) {
+        const double volume = 4 / 3.0 * pi * std::pow(0.2 * size, 3);
+        out.push_back(
+            {t.at / scale, 4 * pi * t.sum / (photons * volume * scale), t.sum > 0 ? std::sqrt(t.square) / t.sum : 1});
+    }
     return out;
 }
 

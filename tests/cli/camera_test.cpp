@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "camera/block.hpp"
+#include "exr/file.hpp"
 #include "files.hpp"
 #include "support/error.hpp"
 
@@ -53,12 +54,12 @@ TEST(CameraMetadata, ReadsTheStandardMatrices)
     const M44d w2c = world_to_camera({3, 4, 5}, 0.3);
     Imf::addWorldToCamera(header, M44f(w2c));
     Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-x, x, -y, y)));
-    const Camera camera = camera_from_metadata(header);
+    const Camera camera = camera_from_metadata(part_of(header));
     ASSERT_TRUE(camera.projection && camera.pose);
     EXPECT_NEAR(camera.projection->vertical_fov(), 50 * kDegree, 1e-5);
     EXPECT_NEAR(camera.projection->center()[0], 0.5, 1e-5);
     EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-5);
-    EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-5);
+    EXPECT_NEAR(camera.projection->pixel_aspect(part_of(header).display_window), 1, 1e-5);
     const Pose &pose = *camera.pose;
     EXPECT_NEAR(pose[3], 3, 1e-5);
     EXPECT_NEAR(pose[7], 4, 1e-5);
@@ -75,11 +76,11 @@ TEST(CameraMetadata, KeepsOffAxisCentresAndAnamorphicPixels)
     const M44d w2c = world_to_camera({0, 0, 0}, 0);
     Imf::addWorldToCamera(header, M44f(w2c));
     Imf::addWorldToNDC(header, M44f(w2c * camera_to_ndc(-0.5, 1.5, -0.25, 0.75)));
-    const Camera camera = camera_from_metadata(header);
+    const Camera camera = camera_from_metadata(part_of(header));
     ASSERT_TRUE(camera.projection);
     EXPECT_NEAR(camera.projection->center()[0], 0.25, 1e-5);
     EXPECT_NEAR(camera.projection->center()[1], 0.75, 1e-5);
-    EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 2, 1e-5);
+    EXPECT_NEAR(camera.projection->pixel_aspect(part_of(header).display_window), 2, 1e-5);
     EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(0.5), 1e-5);
 }
 
@@ -92,7 +93,7 @@ TEST(CameraMetadata, UnderstandsCamerasThatLookAlongMinusZ)
     for (const bool with_ndc : {true, false}) {
         if (!with_ndc)
             header.erase("worldToNDC");
-        const Camera camera = camera_from_metadata(header);
+        const Camera camera = camera_from_metadata(part_of(header));
         ASSERT_TRUE(camera.pose);
         EXPECT_EQ(camera.projection.has_value(), with_ndc);
         EXPECT_NEAR((*camera.pose)[10], 1, 1e-6);
@@ -112,12 +113,12 @@ TEST(CameraMetadata, UnderstandsOpenGLsClipSpaceWhereItStandsForNdc)
     const M44d w2c = M44d().setTranslation(Imath::V3d(-1, -2, -3));
     Imf::addWorldToCamera(header, M44f(w2c));
     Imf::addWorldToNDC(header, M44f(w2c * clip));
-    const Camera camera = camera_from_metadata(header);
+    const Camera camera = camera_from_metadata(part_of(header));
     ASSERT_TRUE(camera.projection && camera.pose);
     EXPECT_NEAR(camera.projection->vertical_fov(), 40 * kDegree, 1e-5);
     EXPECT_NEAR(camera.projection->center()[0], 0.5, 1e-5);
     EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-5);
-    EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-5);
+    EXPECT_NEAR(camera.projection->pixel_aspect(part_of(header).display_window), 1, 1e-5);
     EXPECT_NEAR((*camera.pose)[10], 1, 1e-6);
 }
 
@@ -128,7 +129,7 @@ TEST(CameraMetadata, VRaysMatrixIsCameraToWorld)
     c2w.setTranslation(Imath::V3f(0, 5, 20));
     header.insert("cameraTransform", Imf::M44fAttribute(c2w));
     header.insert("cameraFov", Imf::FloatAttribute(54.4322f));
-    const Camera camera = camera_from_metadata(header);
+    const Camera camera = camera_from_metadata(part_of(header));
     ASSERT_TRUE(camera.projection && camera.pose);
     EXPECT_NEAR((*camera.pose)[7], 5, 1e-6);
     EXPECT_NEAR((*camera.pose)[11], 20, 1e-6);
@@ -136,7 +137,7 @@ TEST(CameraMetadata, VRaysMatrixIsCameraToWorld)
     header.erase("cameraFov");
     header.insert("cameraAperture", Imf::FloatAttribute(36));
     header.insert("cameraFocalLength", Imf::FloatAttribute(35));
-    EXPECT_NEAR(camera_from_metadata(header).projection->vertical_fov(), camera.projection->vertical_fov(), 1e-5);
+    EXPECT_NEAR(camera_from_metadata(part_of(header)).projection->vertical_fov(), camera.projection->vertical_fov(), 1e-5);
 }
 
 /// Mantra's: the camera looks along its +z, and the NDC has the signs of one that looks along -z.
@@ -152,7 +153,7 @@ TEST(CameraMetadata, UnderstandsMantrasMirroredMatrices)
     const M44d w2c = world_to_camera({1, 2, 3}, 0.4);
     Imf::addWorldToCamera(header, M44f(w2c));
     Imf::addWorldToNDC(header, M44f(w2c * ndc));
-    const Camera camera = camera_from_metadata(header);
+    const Camera camera = camera_from_metadata(part_of(header));
     ASSERT_TRUE(camera.projection && camera.pose);
     EXPECT_TRUE(camera.notes.empty()) << camera.notes_text();
     EXPECT_EQ(rigid_defect(*camera.pose), "");
@@ -178,11 +179,11 @@ TEST(CameraMetadata, UnderstandsPbrtsMatrices)
                     M44d().setAxisAngle(Imath::V3d(0, 1, 0), turn) * M44d().setTranslation(Imath::V3d(0, 0, away));
                 Imf::addWorldToCamera(header, M44f(w2c.transposed()));
                 Imf::addWorldToNDC(header, M44f((w2c * camera_to_ndc).transposed()));
-                const Camera camera = camera_from_metadata(header);
+                const Camera camera = camera_from_metadata(part_of(header));
                 ASSERT_TRUE(camera.projection) << camera.notes_text();
                 const double vertical = portrait ? 2 * std::atan(std::tan(22.5 * kDegree) * 64 / 36) : 45 * kDegree;
                 EXPECT_NEAR(camera.projection->vertical_fov(), vertical, 1e-4) << turn << ' ' << away;
-                EXPECT_NEAR(camera.projection->pixel_aspect(header.displayWindow()), 1, 1e-4);
+                EXPECT_NEAR(camera.projection->pixel_aspect(part_of(header).display_window), 1, 1e-4);
                 EXPECT_NEAR(camera.projection->center()[1], 0.5, 1e-4);
                 EXPECT_FALSE(camera.pose);
                 EXPECT_NE(camera.notes_text().find("left-handed"), std::string::npos) << camera.notes_text();
@@ -194,20 +195,21 @@ TEST(CameraMetadata, RefusesWhatNoCameraHasUnlessItIsNamed)
     for (const double degrees : {0.5, 175.0}) {
         Imf::Header header = header_of(1000, 1000);
         header.insert("cameraFov", Imf::FloatAttribute(float(degrees)));
-        const Camera camera = camera_from_metadata(header);
+        const Camera camera = camera_from_metadata(part_of(header));
         EXPECT_FALSE(camera.projection);
         EXPECT_NE(camera.notes_text().find("expected 1 to 170"), std::string::npos) << camera.notes_text();
-        EXPECT_NEAR(camera_from_metadata(header, Implausible::kTaken).projection->vertical_fov(), degrees * kDegree, 1e-5);
+        EXPECT_NEAR(camera_from_metadata(part_of(header), Implausible::kTaken).projection->vertical_fov(), degrees * kDegree,
+                    1e-5);
     }
     Imf::Header header = header_of(1000, 1000);
     M44f w2c;
     w2c[3][3] = 2;
     Imf::addWorldToCamera(header, w2c);
-    EXPECT_NE(camera_from_metadata(header).notes_text().find("expected 0 0 0 1"), std::string::npos);
+    EXPECT_NE(camera_from_metadata(part_of(header)).notes_text().find("expected 0 0 0 1"), std::string::npos);
     M44f sheared;
     sheared[0][1] = 0.5;
     header.insert("worldToCamera", Imf::M44fAttribute(sheared));
-    EXPECT_FALSE(camera_from_metadata(header).pose);
+    EXPECT_FALSE(camera_from_metadata(part_of(header)).pose);
 }
 
 TEST(CameraMetadata, IgnoresNonsense)
@@ -215,7 +217,7 @@ TEST(CameraMetadata, IgnoresNonsense)
     Imf::Header header = header_of();
     Imf::addWorldToCamera(header, M44f(0.0f));
     header.insert("cameraFov", Imf::FloatAttribute(0));
-    const Camera camera = camera_from_metadata(header);
+    const Camera camera = camera_from_metadata(part_of(header));
     EXPECT_FALSE(camera.projection || camera.pose);
     EXPECT_EQ(camera.notes.size(), 2u);
 }
@@ -225,19 +227,19 @@ TEST(CameraFile, ReadsTheSceneFilesBlock)
     const Folder folder;
     write_text(folder / "c.json",
                R"({"camera":{"horizontal_fov":90,"camera_to_world":[[1,0,0,7],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}})");
-    const Camera camera = camera_from_file(folder / "c.json", header_of(1600, 800));
+    const Camera camera = camera_from_file(folder / "c.json", part_of(header_of(1600, 800)));
     EXPECT_NEAR(camera.projection->vertical_fov(), 2 * std::atan(0.5), 1e-9);
     EXPECT_EQ((*camera.pose)[3], 7);
     write_text(folder / "k.json", R"({"vertical_fov":{"keys":[[1,40],[3,60]]},"pixel_aspect":2,"center":[0.25,0.5]})");
-    const Camera keyed = camera_from_file(folder / "k.json", header_of(1000, 1000), "", 2);
+    const Camera keyed = camera_from_file(folder / "k.json", part_of(header_of(1000, 1000)), "", 2);
     EXPECT_NEAR(keyed.projection->vertical_fov(), 50 * kDegree, 1e-9);
-    EXPECT_NEAR(keyed.projection->pixel_aspect(header_of(1000, 1000).displayWindow()), 2, 1e-9);
+    EXPECT_NEAR(keyed.projection->pixel_aspect(part_of(header_of(1000, 1000)).display_window), 2, 1e-9);
     EXPECT_NEAR(keyed.projection->center()[0], 0.25, 1e-9);
     for (const char *text : {"{\"vertical_fow\":50}", "{\"vertical_fov\":50,\"centre\":[0,0]}",
                              "{\"camera_to_world\":[[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]}", "{}", "[1]",
                              "{\"vertical_fov\":180}", "{\"camera_to_world\":[1,2]}", "{"}) {
         write_text(folder / "bad.json", text);
-        EXPECT_THROW(camera_from_file(folder / "bad.json", header_of()), RequestError) << text;
+        EXPECT_THROW(camera_from_file(folder / "bad.json", part_of(header_of())), RequestError) << text;
     }
 }
 

@@ -69,12 +69,12 @@ TEST_F(Names, AFolderIsNoOutput)
     }
 }
 
-TEST_F(Names, OutputsEndInExr)
+TEST_F(Names, OutputsEndAsAFormatThatIsWritten)
 {
-    for (const char *name : {"out.png", "out", "out.tif", ".exr", "out.exr.bak"}) {
+    for (const char *name : {"out.gif", "out", ".tif", ".exr", "out.exr.bak"}) {
         const Result r = run(in_, (folder_ / name).string());
         EXPECT_EQ(r.status, 2) << name;
-        EXPECT_NE(r.err.find("ends in .exr"), std::string::npos) << r.err;
+        EXPECT_NE(r.err.find("ends in one of .exr, .png"), std::string::npos) << r.err;
     }
     EXPECT_EQ(run(in_, (folder_ / "out.EXR").string()).status, 0);
     EXPECT_EQ(run(in_, (folder_ / "o.exr").string(), {"--preview", (folder_ / "p.jpg").string()}).status, 2);

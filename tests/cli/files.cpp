@@ -96,7 +96,8 @@ void write_flat(Imf::MultiPartOutputFile &file, int index, const TestPart &part)
     if (part.tiled) {
         Imf::TiledOutputPart output(file, index);
         output.setFrameBuffer(buffer);
-        output.writeTiles(0, output.numXTiles() - 1, 0, output.numYTiles() - 1);
+        for (int level = 0; level < output.numLevels(); ++level)
+            output.writeTiles(0, output.numXTiles(level) - 1, 0, output.numYTiles(level) - 1, level);
     } else {
         Imf::OutputPart output(file, index);
         output.setFrameBuffer(buffer);

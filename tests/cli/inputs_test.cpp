@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "exr/resolve_input.hpp"
+#include "image/resolve_input.hpp"
 #include "files.hpp"
 #include "support/error.hpp"
 
@@ -89,6 +89,27 @@ protected:
                    out_ = folder_ / "out.exr";
 };
 
+TEST_F(Inputs, LightGroupsAreThoseThatTheSceneNames)
+{
+    const auto scene = [&](const std::string &more) {
+        write_text(fog_, R"({"brume":1, "camera": {"camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+            "medium": {"scattering": 0.01, "absorption": 0.05}, "lights": [
+            {"type": "point", "position": [0,2,0], "intensity": 9)" +
+                             more + R"(},
+            {"type": "point", "position": [1,0,-9], "intensity": 5}]})");
+        return fog_;
+    };
+    write_exr(in_, {{with(three("L0", [](double tau) { return 0.2 * tau; }))}});
+    const auto plain = fogged(scene(""), {}), own = fogged(scene(R"(, "group": "L0")"), {});
+    EXPECT_NE(plain, own);
+    const Result plan = command("plan", scene(R"(, "group": "L0")"), {"--json"});
+    ASSERT_EQ(plan.status, 0) << plan.err;
+    const json said = json::parse(plan.out);
+    EXPECT_EQ(said["inputs"]["light_group0"], "L0.R,L0.G,L0.B: the scene's lights[0].group");
+    scene(R"(, "group": "L1")");
+    expect_refused({"--sky", "fog"}, {"lights[0].group \"L1\"", "nearest is 'L0'"});
+}
+
 TEST_F(Inputs, LayersOfTheSameFileAreTheMedium)
 {
     auto channels = with(three("fog.tau"));
@@ -159,7 +180,7 @@ TEST_F(Inputs, WrongRequestsNameWhatThereIs)
     expect_refused({"--input", "optical_depth=tua"},
                    {"in.exr", "optical_depth=tua", "nearest is 'tau'", "tau.R,tau.G,tau.B"});
     expect_refused({"--input", "optical_depth"}, {"ROLE=LAYER"});
-    expect_refused({"--input", "optical_depth=fog.exr:"}, {"ROLE=FILE.exr:LAYER"});
+    expect_refused({"--input", "optical_depth=fog.exr:"}, {"ROLE=FILE:LAYER"});
     expect_refused({"--input", "optical_depth=" + (folder_ / "none.exr").string() + ":tau"}, {"none.exr", "no such file"});
     expect_refused({"--input", "optical_depth=tau", "--input", "optical_depth=Z"}, {"twice"});
     expect_refused({"--input", "optical_depth=tau", "--input", "transmittance=tau"}, {"optical_depth", "transmittance"});
@@ -225,7 +246,7 @@ protected:
         for (const std::string &name : names)
             channels.push_back({name});
         write_exr(folder_ / "a.exr", {{channels}});
-        const ExrFile file(folder_ / "a.exr");
+        const ImageFile file(folder_ / "a.exr");
         const auto choice = find_known_input(file, role, resolve_color(file, {}));
         return choice ? choice->label() : "";
     }

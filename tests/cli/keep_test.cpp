@@ -11,8 +11,9 @@
 #include <ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
-#include "exr/frame.hpp"
-#include "exr/write.hpp"
+#include "exr/file.hpp"
+#include "image/frame.hpp"
+#include "image/write.hpp"
 #include "files.hpp"
 #include "support/error.hpp"
 
@@ -28,7 +29,7 @@ protected:
 
     Frame read(const LayerRequest &request = {}) const
     {
-        ExrFile file(in);
+        ImageFile file(in);
         const ColorChoice color = resolve_color(file, request);
         std::string none;
         const auto depth = find_depth(file, request, &color, &none);
@@ -87,11 +88,12 @@ TEST_F(Keep, TypesLayersAndMetadata)
     for (const char *c : {"A", "Z", "id", "crypto00.R"})
         expect_same(c);
     const auto quarter_of = [](const fs::path &path) {
-        ExrFile file(path);
+        ImageFile file(path);
         const ColorChoice color = resolve_color(file, {});
         const Frame frame = read_frame(std::move(file), color, nullptr);
-        const auto at = std::find_if(frame.planes.begin(), frame.planes.end(),
-                                     [](const Plane &p) { return p.channel.name == "quarter"; });
+        const auto &planes = dynamic_cast<const ExrPixels &>(*frame.stored).planes;
+        const auto at =
+            std::find_if(planes.begin(), planes.end(), [](const Plane &p) { return p.channel.name == "quarter"; });
         return std::string(at->bytes.get(), kWidth / 2 * kHeight / 2 * 2);
     };
     EXPECT_TRUE(quarter_of(in) == quarter_of(out));
@@ -209,13 +211,13 @@ TEST_F(Keep, AddedLayersTakeTheirPlaceAndReplaceOlderOnes)
 {
     write_exr(in, {{rgbz()}});
     const std::size_t count = std::size_t(kWidth) * kHeight;
-    const std::vector<AddedLayer> layers{{"transmittance", 3, Imf::HALF, std::vector<float>(3 * count, 0.5f)},
-                                         {"blur_radius", 1, Imf::FLOAT, std::vector<float>(count, 1e30f)}};
+    const std::vector<AddedLayer> layers{{"transmittance", 3, SampleType::kHalf, std::vector<float>(3 * count, 0.5f)},
+                                         {"blur_radius", 1, SampleType::kFloat, std::vector<float>(count, 1e30f)}};
     doubled(layers);
     EXPECT_EQ(read_plane(out, "brume.transmittance.G")[5], 0.5);
     EXPECT_EQ(float(read_plane(out, "brume.blur_radius.Y")[5]), 1e30f);
     fs::rename(out, in);
-    const std::vector<AddedLayer> again{{"transmittance", 3, Imf::FLOAT, std::vector<float>(3 * count, 0.25f)}};
+    const std::vector<AddedLayer> again{{"transmittance", 3, SampleType::kFloat, std::vector<float>(3 * count, 0.25f)}};
     doubled(again);
     EXPECT_EQ(read_plane(out, "brume.transmittance.G")[5], 0.25);
     EXPECT_EQ(read_header(out).channels()["brume.transmittance.R"].type, Imf::FLOAT);

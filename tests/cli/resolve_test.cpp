@@ -1,7 +1,7 @@
 #include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
-#include "exr/resolve.hpp"
+#include "image/resolve.hpp"
 #include "files.hpp"
 #include "support/error.hpp"
 
@@ -20,12 +20,12 @@ std::vector<TestChannel> named(const std::vector<std::string> &names)
 
 class Resolve : public testing::Test {
 protected:
-    ExrFile file_of(const std::vector<TestPart> &parts)
+    ImageFile file_of(const std::vector<TestPart> &parts)
     {
         write_exr(folder_ / "a.exr", parts);
-        return ExrFile(folder_ / "a.exr");
+        return ImageFile(folder_ / "a.exr");
     }
-    ExrFile file(const std::vector<std::string> &channels, const std::vector<std::string> &views = {})
+    ImageFile file(const std::vector<std::string> &channels, const std::vector<std::string> &views = {})
     {
         TestPart part{named(channels)};
         part.edit = [views](Imf::Header &h) {
@@ -34,13 +34,13 @@ protected:
         };
         return file_of({part});
     }
-    static std::string depth_of(const ExrFile &f, LayerRequest request = {})
+    static std::string depth_of(const ImageFile &f, LayerRequest request = {})
     {
         const ColorChoice color = resolve_color(f, request);
         const DepthChoice depth = resolve_depth(f, request, &color);
         return f.parts().size() > 1 ? std::to_string(depth.part) + ":" + depth.channel : depth.channel;
     }
-    static std::string complaint(const ExrFile &f, LayerRequest request = {})
+    static std::string complaint(const ImageFile &f, LayerRequest request = {})
     {
         try {
             depth_of(f, request);
@@ -75,7 +75,7 @@ TEST_F(Resolve, ColourIsTheRootThenTheDefaultViewThenTheOnlyLayer)
 
 TEST_F(Resolve, ColourAsAskedOrNotAtAll)
 {
-    const ExrFile f = file({"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"});
+    const ImageFile f = file({"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"});
     EXPECT_THROW(resolve_color(f, {}), RequestError);
     EXPECT_EQ(resolve_color(f, {"b", "", "", ""}).rgb[0], "b.R");
     EXPECT_THROW(resolve_color(f, {"c", "", "", ""}), RequestError);
@@ -115,7 +115,7 @@ TEST_F(Resolve, NeverTheThirdAxisOfAVector)
 
 TEST_F(Resolve, DepthAsAsked)
 {
-    const ExrFile f = file({"R", "G", "B", "Z", "Mist.Z", "dist.T"});
+    const ImageFile f = file({"R", "G", "B", "Z", "Mist.Z", "dist.T"});
     EXPECT_EQ(depth_of(f, {"", "", "", "Mist.Z"}), "Mist.Z");
     EXPECT_EQ(depth_of(f, {"", "", "", "dist"}), "dist.T") << "a layer of one channel";
     EXPECT_EQ(depth_of(f, {"", "", "", "R"}), "R") << "even what looks like colour";
@@ -130,12 +130,12 @@ TEST_F(Resolve, SeveralDepthsAreListed)
 
 TEST_F(Resolve, DepthSharesTheColoursView)
 {
-    const ExrFile stereo = file({"R", "G", "B", "Z", "left.R", "left.G", "left.B", "left.Z"}, {"right", "left"});
+    const ImageFile stereo = file({"R", "G", "B", "Z", "left.R", "left.G", "left.B", "left.Z"}, {"right", "left"});
     EXPECT_EQ(depth_of(stereo), "Z");
     EXPECT_EQ(depth_of(stereo, {"", "", "left", ""}), "left.Z");
-    const ExrFile half = file({"R", "G", "B", "left.R", "left.G", "left.B", "left.Z"}, {"right", "left"});
+    const ImageFile half = file({"R", "G", "B", "left.R", "left.G", "left.B", "left.Z"}, {"right", "left"});
     EXPECT_NE(complaint(half).find("view 'right'"), std::string::npos) << complaint(half);
-    const ExrFile nuke = file({"R", "G", "B", "left.R", "left.G", "left.B", "left.depth.Z", "depth.Z"}, {"right", "left"});
+    const ImageFile nuke = file({"R", "G", "B", "left.R", "left.G", "left.B", "left.depth.Z", "depth.Z"}, {"right", "left"});
     EXPECT_EQ(depth_of(nuke, {"", "", "left", ""}), "left.depth.Z");
 }
 
@@ -145,7 +145,7 @@ TEST_F(Resolve, PartsAreMatchedByViewAndName)
     rgb_left.name = "rgba_left", z_left.name = "depth_left", rgb_right.name = "rgba_right", z_right.name = "depth_right";
     rgb_left.view = z_left.view = "left";
     rgb_right.view = z_right.view = "right";
-    const ExrFile f = file_of({rgb_right, z_left, rgb_left, z_right});
+    const ImageFile f = file_of({rgb_right, z_left, rgb_left, z_right});
     EXPECT_EQ(depth_of(f), "3:Z");
     EXPECT_EQ(depth_of(f, {"", "", "left", ""}), "1:Z");
     EXPECT_EQ(depth_of(f, {"", "rgba_left", "", ""}), "1:Z");
@@ -160,7 +160,7 @@ TEST_F(Resolve, DeepAndSubsampledDepthAreRefused)
 {
     TestPart picture{rgb()}, deep{{{"Z", Imf::FLOAT}}};
     picture.name = "rgb", deep.name = "deep", deep.deep = true;
-    const ExrFile f = file_of({picture, deep});
+    const ImageFile f = file_of({picture, deep});
     EXPECT_NE(complaint(f).find("no depth"), std::string::npos);
     EXPECT_NE(complaint(f, {"", "", "", "Z"}).find("deep data"), std::string::npos);
     auto channels = rgb();

@@ -184,6 +184,7 @@ TEST_P(AirlightOn, AVisibleLampIsCountedOnce)
                       Json::array({point_light({0, 0, -distance}, radiance * 3.14159265 * radius * radius, radius)}));
         scene["camera"]["vertical_fov"] = 80;
         scene["effects"]["multiscatter"] = {{"kernel", kernel}, {"masking", false}};
+        scene["effects"]["airlight"]["orders"] = "single";
         const Exhaustive exact(scene, size, size);
         double lamp = 0;
         for (int y = 0; y < size; ++y)

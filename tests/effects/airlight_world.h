@@ -8,6 +8,7 @@
 #include "maths.hpp"
 #include "quality.h"
 #include "reference_ray.h"
+#include "scene_maths.hpp"
 #include "tables.h"
 
 namespace airlight_cases {
@@ -51,6 +52,7 @@ public:
         camera_.back = {0, 0, 1};
         camera_.metres_per_unit = 1;
         camera_.tangent_scale = {1, -1};
+        surroundings_.resize(4 * brume::maths_float::sides * c.lights.size());
         settings.light_count = int(c.lights.size());
         settings.gaussian_count = n;
         brume::airlight::set_quality(settings, max_error);
@@ -68,6 +70,17 @@ public:
         map_[maps_++] = map;
     }
 
+    // A plane at this height below the camera, or (`high`) above it, across this axis.
+    void add_plane(int axis, bool high, double away)
+    {
+        for (size_t l = 0; l < case_.lights.size(); ++l) {
+            const double lamp = case_.lights[l].position[axis];
+            float *texel = surroundings_.data() + 4 * (brume::maths_float::sides * l + size_t(2 * axis + high));
+            texel[0] = float(std::max(away + (high ? -lamp : lamp), 0.0));
+            texel[1] = 1;
+        }
+    }
+
     narrow::Airlight airlight(int tier)
     {
         const narrow::Texture light_shadows = image(light_shadows_, 4), &shadow_0 = map_[0], &shadow_1 = map_[1], &shadow_2 = map_[2],
@@ -78,7 +91,8 @@ public:
             for (int i = 0; i < settings.gaussian_count * (1 + settings.light_count); ++i)
                 blob_density_.push_back(narrow::blob_density_at(medium_, camera_, settings, SHADOW_PASSED, lights, i));
         static const std::vector<float> table = brume::airlight::sun_table();
-        const narrow::Texture blob_density = image(blob_density_, 1), sun_table = image(table, 1);
+        const narrow::Texture blob_density = image(blob_density_, 1), sun_table = image(table, 1),
+                              surroundings = image(surroundings_, 4);
         const narrow::Sight sight{narrow::vec3(case_.direction), float(case_.distance), 0, int(seen_.size())};
         return narrow::airlight_of_tier(tier, medium_, camera_, settings, AIRLIGHT_PASSED, sight, 0, settings.light_count);
     }
@@ -95,8 +109,16 @@ public:
 
     brume::airlight::ReferenceAirlight reference() const
     {
-        return brume::airlight::reference_airlight({case_.medium, case_.gaussians, case_.lights, {}, settings.orders, vec4(settings.ground)}, case_.direction, case_.distance,
-                                                   0, int(case_.lights.size()));
+        Camera camera{};
+        camera.right = {1, 0, 0};
+        camera.up = {0, 1, 0};
+        camera.back = {0, 0, 1};
+        std::vector<Surroundings> around;
+        const Data planes(surroundings_.data(), surroundings_.size() / 4, 4);
+        for (size_t l = 0; l < case_.lights.size(); ++l)
+            around.push_back(surroundings_of(planes.texture(), int(l)));
+        return brume::airlight::reference_airlight({case_.medium, case_.gaussians, case_.lights, camera, settings.orders, around},
+                                                   case_.direction, case_.distance, 0, int(case_.lights.size()));
     }
 
     narrow::AirlightSettings settings{};
@@ -117,7 +139,7 @@ private:
     narrow::Camera camera_{};
     narrow::Texture map_[4];
     int maps_ = 0;
-    std::vector<float> light_shadows_, gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_;
+    std::vector<float> light_shadows_, gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_, surroundings_;
 };
 
 // Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send less

@@ -184,8 +184,8 @@ TEST(LampOrders, LampAndPointMayChangePlaces)
         EXPECT_NEAR(a.fluence, b.fluence, 1e-6 * a.fluence);
         const double up = dice.uniform(0, 5), down = dice.uniform(0, 5),
                      distance = std::abs(up - down) + dice.uniform(0.1, 5);
-        EXPECT_NEAR(f64::left_by_ground(a, there, distance, up, down), f64::left_by_ground(a, there, distance, down, up),
-                    1e-12);
+        EXPECT_NEAR(f64::left_by_plane(a, f64::beside_planes(a, there), distance, up, down),
+                    f64::left_by_plane(b, f64::beside_planes(b, back), distance, down, up), 1e-12);
     }
 }
 
@@ -194,12 +194,12 @@ TEST(LampOrders, BlackGroundTakesMostWhereItIsNear)
     double before = 1;
     for (double height : {30.0, 3.0, 1.0, 0.3, 0.0}) {
         const f64::Rescattered r = f64::rescattered(2, 0, 0);
-        const double left = f64::left_by_ground(r, 2, 2, height, height);
+        const double left = f64::left_by_plane(r, f64::beside_planes(r, 2), 2, height, height);
         EXPECT_LT(left, before);
         EXPECT_GT(left, 0);
         before = left;
     }
-    EXPECT_GT(f64::left_by_ground(f64::rescattered(2, 0, 0), 2, 2, 1e6, 1e6), 0.999);
+    EXPECT_GT(f64::left_by_plane(f64::rescattered(2, 0, 0), 1, 2, 1e6, 1e6), 0.999);
 }
 
 // A spot of all directions is a point, and what a narrow one scatters far away is even.
@@ -213,7 +213,9 @@ TEST(LampOrders, SpotsAreAsBrightAsTheyEmit)
     const f64::vec3 direction(0, 0, -1);
     const double far = 500;
     auto of = [&](const f64::Light &l, double t, double depth) {
-        return f64::rescattered_strength(m, l, f64::aspect_of(l, direction), f64::vec4(0), direction, t, depth).x;
+        return f64::rescattered_strength(m, {}, l, f64::aspect_of(l, direction), f64::open_surroundings(), direction, t,
+                                         depth)
+            .x;
     };
     const double wide = of(spot, far, far) / of(point, far, far);
     EXPECT_NEAR(wide, 0.5, 0.02);
@@ -344,7 +346,8 @@ TEST(LampOrders, FiniteAtTheExtremes)
                 ASSERT_TRUE(r.cosine >= 0 && r.cosine <= 1) << g << " " << s << " " << d;
                 for (float distance : {0.0f, 1e-7f, 1.0f, 1e6f, 1e30f})
                     for (float height : {0.0f, 1.0f, 1e6f, 1e30f}) {
-                        const float left = f32::left_by_ground(r, std::min(s + d, 1e9f), distance, height, 1.0f);
+                        const float left =
+                            f32::left_by_plane(r, f32::beside_planes(r, std::min(s + d, 1e9f)), distance, height, 1.0f);
                         ASSERT_TRUE(left >= 0 && left <= 1) << g << " " << s << " " << d << " " << distance << " " << height;
                     }
                 for (float cosine : {-1.0f, 0.0f, 1.0f})
@@ -362,8 +365,9 @@ TEST(LampOrders, FiniteAtTheExtremes)
                     c.lights[1].cos_inner = 0.7f;
                     c.distance = distance;
                     World world(c);
-                    for (float up : {0.0f, 1.0f}) {
-                        world.settings.ground = f32::vec4(0, up, 0, 2);
+                    for (int planes : {0, 1, 6}) {
+                        for (int side = 0; side < planes; ++side)
+                            world.add_plane((side + 2) % 6 / 2, side % 2 == 1, 2);
                         const f32::vec3 single = world.airlight(f32::airlight_nodes).radiance;
                         world.settings.orders = f32::orders_all;
                         const f32::vec3 all = world.airlight(f32::airlight_nodes).radiance;

@@ -138,6 +138,34 @@ TEST_P(SurfaceOn, GroupsAreEachLampsOwn)
     EXPECT_LT(worst.error, 1e-5) << worst.describe();
 }
 
+// A lamp that lights no surface has no part in what they show.
+TEST_P(SurfaceOn, LampsThatLightNoSurfaces)
+{
+    const Frame frame = lit_frame(24, 16);
+    const Picture color = random_picture(24, 16, 3);
+    Json one = relit_scene(coloured, Json::array({lamps[0]})), unlit = relit_scene(coloured, lamps);
+    const Picture both = relit(context(), unlit, color, frame.depth);
+    unlit["lights"][1]["surfaces"] = false;
+    const Picture alone = relit(context(), one, color, frame.depth);
+    EXPECT_EQ(relit(context(), unlit, color, frame.depth).data, alone.data);
+    EXPECT_NE(both.data, alone.data);
+}
+
+// Without names of effects, layers of lit surfaces ask for it.
+TEST_P(SurfaceOn, RunsWhereLayersSayThatSurfacesAreLit)
+{
+    const Frame frame = lit_frame(24, 16);
+    const Picture color = random_picture(24, 16, 3), group = random_picture(24, 16, 2);
+    Json scene = relit_scene(coloured, Json::array({lamps[0]}));
+    scene.erase("effects");
+    Json named = scene;
+    named["effects"] = {{"surface", Json::object()}, {"multiscatter", Json::object()}, {"airlight", Json::object()}};
+    EXPECT_EQ(relit(context(), scene, color, frame.depth, {}, {group}).data,
+              relit(context(), named, color, frame.depth, {}, {group}).data);
+    named["effects"].erase("surface");
+    EXPECT_EQ(relit(context(), scene, color, frame.depth).data, relit(context(), named, color, frame.depth).data);
+}
+
 // One lamp's light is all there is, whether a layer says so or not.
 TEST_P(SurfaceOn, OneLampHasAllOfThePicture)
 {
@@ -182,7 +210,114 @@ TEST_P(SurfaceOn, WhatIsNotFiniteStaysAsItIs)
     EXPECT_EQ(finite, 8 * 8 * 4 - 2);
 }
 
+namespace {
+
+namespace f64 = brume::maths_double;
+
+// A plane 5 m before the camera that faces it, and a lamp.
+struct Lit {
+    f64::Medium medium{};
+    f64::Surface surface{true, f64::vec3(0, 0, -5), f64::vec3(0, 0, 1)};
+    f64::Light lamp{};
+    f64::Material material{true, f64::vec3(0.6, 0.3, 0.1), f64::vec3(0), false, 1};
+
+    Lit(double scattering, double g, const f64::vec3 &at)
+    {
+        medium.scattering = f64::vec3(scattering);
+        medium.asymmetry = g;
+        medium.phase = f64::vec4(g, 0, 0, 0);
+        medium.constant = 1;
+        lamp.position = at;
+        lamp.intensity = f64::vec3(10);
+    }
+    f64::vec3 diffuse() const { return material.albedo / f64::pi * f64::clear_irradiance(surface, lamp); }
+    f64::vec3 becomes(const f64::vec3 &own) const { return f64::lit_by_lamp(medium, surface, lamp, material, {}, 0, own); }
+};
+
+}  // namespace
+
+TEST(SurfaceMaterial, OfLitLambertSurfacesSaysWhatTheFactorSays)
+{
+    for (double scattering : {1e-4, 0.05, 0.5})
+        for (const f64::vec3 &at : {f64::vec3(0, 0, -2), f64::vec3(3, 1, -3), f64::vec3(-6, 0, -4)}) {
+            Lit lit(scattering, 0.5, at);
+            const f64::vec3 known = lit.becomes(lit.diffuse());
+            lit.material.known = false;
+            const f64::vec3 factor = lit.becomes(lit.diffuse());
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(known[c], factor[c], 1e-9 * factor[c]) << scattering;
+        }
+}
+
+TEST(SurfaceMaterial, FogLightsShadowsAndSidesTurnedAway)
+{
+    double last = 0;
+    for (double scattering : {1e-9, 0.01, 0.05, 0.2}) {
+        const double shadow = Lit(scattering, 0, {1, 1, -3}).becomes(f64::vec3(0)).x,
+                     behind = Lit(scattering, 0, {1, 1, -7}).becomes(f64::vec3(0)).x;
+        EXPECT_GT(shadow, last);
+        EXPECT_GT(behind, 0);
+        last = shadow;
+    }
+    EXPECT_LT(Lit(1e-9, 0, {1, 1, -3}).becomes(f64::vec3(0)).x, 1e-8) << "in clear air they stay as they are";
+    // Turning away dims without a jump.
+    const double before = Lit(0.05, 0.3, {3, 0, -5 + 1e-7}).becomes(f64::vec3(0)).x,
+                 after = Lit(0.05, 0.3, {3, 0, -5 - 1e-7}).becomes(f64::vec3(0)).x,
+                 far = Lit(0.05, 0.3, {1, 0, -8}).becomes(f64::vec3(0)).x;
+    EXPECT_NEAR(after, before, 1e-5 * before);
+    EXPECT_LT(far, before);
+}
+
+TEST(SurfaceMaterial, HighlightsDimAndWiden)
+{
+    for (double g : {0.0, 0.7}) {
+        auto shown = [&](double scattering, double aside) {
+            Lit lit(scattering, g, {aside, 0, 0});
+            lit.material.albedo = f64::vec3(0);
+            lit.material.specular = f64::vec3(0.5);
+            lit.material.exponent = 50;
+            const double cosine = 5 / std::sqrt(25 + aside * aside);
+            const double own = 0.5 * 51 / (2 * f64::pi) * std::pow(cosine, 50) * 10 / (25 + aside * aside);
+            return std::pair(own, lit.becomes(f64::vec3(own)).x);
+        };
+        const auto [peak, peak_fogged] = shown(0.05, 0);
+        EXPECT_LT(peak_fogged, peak);
+        EXPECT_GT(peak_fogged, 0.5 * peak * std::exp(-0.25));
+        const auto [edge, edge_fogged] = shown(0.05, 4);
+        EXPECT_GT(edge_fogged, edge);
+        const auto [same, clear] = shown(0, 2);
+        EXPECT_NEAR(clear, same, 1e-12);
+    }
+}
+
+TEST(SurfaceMaterial, FiniteAtTheExtremes)
+{
+    for (double scattering : {0.0, 1e-12, 1.0, 1e4})
+        for (double g : {-0.999, 0.0, 1.0})
+            for (const f64::vec3 &at : {f64::vec3(0, 0, -5), f64::vec3(0), f64::vec3(0, 0, -1e6), f64::vec3(1e6, 0, 0)})
+                for (double roughness : {0.0, 1e-6, 0.5, 1.0, double(NAN)})
+                    for (double own : {0.0, 1e10, -1.0}) {
+                        Lit lit(scattering, g, at);
+                        lit.material = f64::material_of(2, f64::vec3(1), f64::vec3(1, 0, NAN), roughness);
+                        const f64::vec3 got = lit.becomes(f64::vec3(own));
+                        ASSERT_TRUE(std::isfinite(got.x) && std::isfinite(got.y) && std::isfinite(got.z))
+                            << scattering << " " << g << " " << roughness << " " << own;
+                    }
+}
+
 #ifdef BRUME_GL
+TEST(SurfaceMaterial, BackendsAgree)
+{
+    const Frame frame = lit_frame(40, 32);
+    const Picture group = random_picture(40, 32, 2);
+    std::map<std::string, Picture> material{{"albedo", random_picture(40, 32, 5)}, {"specular", random_picture(40, 32, 6)}};
+    material["roughness"] = Picture(40, 32, 1, 0.4f);
+    const Json scene = relit_scene(coloured, lamps);
+    const Worst worst = compare(relit(backend("gl"), scene, frame.color, frame.depth, material, {group, group}),
+                                relit(cpu(), scene, frame.color, frame.depth, material, {group, group}), 0.05);
+    EXPECT_LT(worst.error, 1e-3) << worst.describe();
+}
+
 TEST(Surface, BackendsAgree)
 {
     const Frame frame = lit_frame(40, 32);
@@ -241,6 +376,17 @@ TEST(Surface, LampsThatLightWhatIsSeen)
             error("light groups, normals", relit(cpu(), scene, color, depth, {{"normal", normal}}, groups));
         error("normals", relit(cpu(), scene, color, depth, {{"normal", normal}}));
         error("depth alone", run(cpu(), scene.dump(), color, depth).output);
+        std::map<std::string, Picture> material{{"normal", normal}};
+        for (const char *name : {"albedo", "specular"})
+            material[name] = read_exr(clear, {std::string(name) + ".R", std::string(name) + ".G", std::string(name) + ".B"});
+        material["roughness"] = read_exr(clear, {"roughness.Y"});
+        const double all = error("light groups, normals, materials", relit(cpu(), scene, color, depth, material, groups));
+        scene.erase("effects");
+        const double by_default = error("the same, no effects named", relit(cpu(), scene, color, depth, material, groups));
+        const double ungrouped = error("no effects named, no layers", run(cpu(), scene.dump(), color, depth).output);
         EXPECT_LT(grouped, 1.2 * without) << medium;
+        EXPECT_LT(all, 1.2 * without) << medium;
+        EXPECT_LT(by_default, 0.008) << medium;
+        EXPECT_LT(ungrouped, 0.0265) << medium << ": half of what single scattering has";
     }
 }

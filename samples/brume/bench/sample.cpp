@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "colour/color_manager.hpp"
-#include "exr/frame.hpp"
+#include "image/frame.hpp"
 #include "run/sequence.hpp"
 #include "support/error.hpp"
 
@@ -46,7 +46,7 @@ Sample load_sample(const FrameFile &file, const PictureOptions &options, const C
     const ColorManager colors;
     OpenFrame open = open_frame(file, options, {});
     const DepthSource depth{open.depth_file ? &*open.depth_file : nullptr, open.depth};
-    const Imf::Header &header = open.file.header(open.color.part);
+    const PartInfo &header = open.file.part(open.color.part);
     const Shot shot = shot_of(open.file, open.color, options, scene_camera, file.frame);
     Sample sample;
     sample.name = file.input.string();
@@ -55,12 +55,14 @@ Sample load_sample(const FrameFile &file, const PictureOptions &options, const C
     sample.frame = file.frame;
     sample.weights = colors.luminance_weights(header);
     Frame frame = read_frame(std::move(open.file), open.color, &depth);
+    colors.file_to_working(frame.file, frame.pixels.data(), std::size_t(frame.width) * std::size_t(frame.height),
+                           frame.channels);
     sample.channels = frame.channels;
     sample.color = std::move(frame.pixels);
     sample.depth = std::move(frame.depth);
     options.depth_kind().convert(sample.depth);
     if (!truth.empty()) {
-        ExrFile truth_file(truth);
+        ImageFile truth_file(truth);
         const ColorChoice color = resolve_color(truth_file, options.layers);
         const Frame other = read_frame(std::move(truth_file), color, nullptr);
         if (other.width != frame.width || other.height != frame.height)

@@ -115,11 +115,11 @@ CameraBlock CameraBlock::of_scene(const std::string &text, const std::string &fi
     return root.is_object() && root.contains("camera") ? CameraBlock(root["camera"], file) : CameraBlock();
 }
 
-double CameraBlock::aspect(double frame, const Imf::Header &picture) const
+double CameraBlock::aspect(double frame, const PartInfo &picture) const
 {
     if (pixel_aspect_)
         return pixel_aspect_->at(frame);
-    const double ratio = double(picture.pixelAspectRatio());
+    const double ratio = picture.pixel_aspect;
     return ratio >= 1e-3 && ratio <= 1e3 ? ratio : 1;
 }
 
@@ -128,18 +128,18 @@ std::array<double, 2> CameraBlock::center(double frame) const
     return center_ ? std::array{(*center_)[0].at(frame), (*center_)[1].at(frame)} : std::array{0.5, 0.5};
 }
 
-Projection CameraBlock::with_vertical_fov(double radians, double frame, const Imf::Header &picture) const
+Projection CameraBlock::with_vertical_fov(double radians, double frame, const PartInfo &picture) const
 {
-    return Projection::from_vertical_fov(radians, picture.displayWindow(), aspect(frame, picture), center(frame));
+    return Projection::from_vertical_fov(radians, picture.display_window, aspect(frame, picture), center(frame));
 }
 
-Camera CameraBlock::at(double frame, const Imf::Header &picture, const std::string &source) const
+Camera CameraBlock::at(double frame, const PartInfo &picture, const std::string &source) const
 {
     Camera camera;
     if (vertical_fov_)
         camera.projection = with_vertical_fov(vertical_fov_->at(frame) * kDegree, frame, picture);
     else if (horizontal_fov_)
-        camera.projection = Projection::from_horizontal_fov(horizontal_fov_->at(frame) * kDegree, picture.displayWindow(),
+        camera.projection = Projection::from_horizontal_fov(horizontal_fov_->at(frame) * kDegree, picture.display_window,
                                                             aspect(frame, picture), center(frame));
     if (camera.projection)
         camera.projection_source = source;

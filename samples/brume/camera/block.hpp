@@ -25,10 +25,10 @@ public:
     bool gives_pose() const { return pose_.has_value(); }
 
     /// Pixels have the picture's aspect where the block has none.
-    Camera at(double frame, const Imf::Header &picture, const std::string &source) const;
+    Camera at(double frame, const PartInfo &picture, const std::string &source) const;
 
     /// Another field of view with the block's centre and aspect.
-    Projection with_vertical_fov(double radians, double frame, const Imf::Header &picture) const;
+    Projection with_vertical_fov(double radians, double frame, const PartInfo &picture) const;
 
 private:
     /// Linear between keys, constant beyond them.
@@ -38,7 +38,7 @@ private:
     };
     static Number read(const nlohmann::json &value, const std::string &what, const char *expected, double low, double high);
 
-    double aspect(double frame, const Imf::Header &picture) const;
+    double aspect(double frame, const PartInfo &picture) const;
     std::array<double, 2> center(double frame) const;
 
     std::optional<Number> vertical_fov_, horizontal_fov_, pixel_aspect_;  ///< angles in degrees
@@ -48,7 +48,7 @@ private:
 
 /// --camera: a scene file's camera block, alone or inside a whole scene file; or an EXR file whose metadata is meant, that
 /// of its part with `view` where it has several.
-Camera camera_from_file(const std::filesystem::path &file, const Imf::Header &picture, const std::string &view = "",
+Camera camera_from_file(const std::filesystem::path &file, const PartInfo &picture, const std::string &view = "",
                         double frame = 0);
 
 }  // namespace brume::tool

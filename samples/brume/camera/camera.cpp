@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "exr/file.hpp"
+#include "image/file.hpp"
 
 namespace brume::tool {
 namespace {
@@ -27,13 +27,13 @@ std::array<double, 2> Projection::center() const
     return {-left / (right - left), top / (top - bottom)};
 }
 
-double Projection::pixel_aspect(const Imath::Box2i &display) const
+double Projection::pixel_aspect(const Window &display) const
 {
     const double width = double(display.max.x) - display.min.x + 1, height = double(display.max.y) - display.min.y + 1;
     return (right - left) / width / ((top - bottom) / height);
 }
 
-Projection Projection::from_vertical_fov(double radians, const Imath::Box2i &display, double pixel_aspect,
+Projection Projection::from_vertical_fov(double radians, const Window &display, double pixel_aspect,
                                          std::array<double, 2> center)
 {
     const double width = double(display.max.x) - display.min.x + 1, height = double(display.max.y) - display.min.y + 1;
@@ -41,7 +41,7 @@ Projection Projection::from_vertical_fov(double radians, const Imath::Box2i &dis
     return around(center, y * width * pixel_aspect / height, y);
 }
 
-Projection Projection::from_horizontal_fov(double radians, const Imath::Box2i &display, double pixel_aspect,
+Projection Projection::from_horizontal_fov(double radians, const Window &display, double pixel_aspect,
                                            std::array<double, 2> center)
 {
     const double width = double(display.max.x) - display.min.x + 1, height = double(display.max.y) - display.min.y + 1;
@@ -89,14 +89,14 @@ std::string Camera::notes_text() const
     return fmt::format("{}", fmt::join(notes, "; "));
 }
 
-Camera camera_from_metadata(const ExrFile &file, int part, Implausible implausible)
+Camera camera_from_metadata(const ImageFile &file, int part, Implausible implausible)
 {
-    Camera camera = camera_from_metadata(file.header(part), implausible);
-    const std::string &view = file.parts()[std::size_t(part)].view;
+    Camera camera = camera_from_metadata(file.part(part), implausible);
+    const std::string &view = file.part(part).view;
     for (const PartInfo &other : file.parts()) {
         if (other.index == part || (!view.empty() && !other.view.empty() && other.view != view))
             continue;
-        Camera found = camera_from_metadata(file.header(other.index), implausible);
+        Camera found = camera_from_metadata(other, implausible);
         found.projection_source += " of " + other.label();
         found.pose_source += " of " + other.label();
         camera.fill_from(found);

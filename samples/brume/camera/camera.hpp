@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <ImathBox.h>
-#include <ImfHeader.h>
+#include "image/types.hpp"
 
 namespace brume::tool {
 
-class ExrFile;
+class ImageFile;
 
 /// What the display window sees: slopes of its edges at unit distance along the axis.
 struct Projection {
@@ -18,11 +17,11 @@ struct Projection {
 
     double vertical_fov() const;           ///< [rad]
     std::array<double, 2> center() const;  ///< of the window, from its left and its top
-    double pixel_aspect(const Imath::Box2i &display) const;
+    double pixel_aspect(const Window &display) const;
 
-    static Projection from_vertical_fov(double radians, const Imath::Box2i &display, double pixel_aspect,
+    static Projection from_vertical_fov(double radians, const Window &display, double pixel_aspect,
                                         std::array<double, 2> center = {0.5, 0.5});
-    static Projection from_horizontal_fov(double radians, const Imath::Box2i &display, double pixel_aspect,
+    static Projection from_horizontal_fov(double radians, const Window &display, double pixel_aspect,
                                           std::array<double, 2> center = {0.5, 0.5});
 };
 
@@ -48,9 +47,9 @@ enum class Implausible { kRefused, kTaken };
 
 /// In this order, each part from the first that has it: worldToCamera and worldToNDC (the OpenEXR standard's), then V-Ray's
 /// cameraTransform (camera-to-world) with cameraFov, or cameraAperture and cameraFocalLength.
-Camera camera_from_metadata(const Imf::Header &header, Implausible implausible = Implausible::kRefused);
+Camera camera_from_metadata(const PartInfo &part, Implausible implausible = Implausible::kRefused);
 
 /// The same of a part and, for what that lacks, of the other parts of its view.
-Camera camera_from_metadata(const ExrFile &file, int part, Implausible implausible = Implausible::kRefused);
+Camera camera_from_metadata(const ImageFile &file, int part, Implausible implausible = Implausible::kRefused);
 
 }  // namespace brume::tool

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "camera/block.hpp"
-#include "exr/file.hpp"
-#include "exr/narrow.hpp"
+#include "image/file.hpp"
+#include "image/narrow.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -13,7 +13,7 @@ namespace {
 
 Camera camera_from_exr(const std::filesystem::path &path, const std::string &view)
 {
-    const ExrFile file(path);
+    const ImageFile file(path);
     int part = 0;
     for (const PartInfo &p : file.parts())
         if (!view.empty() && p.view == view) {
@@ -29,7 +29,7 @@ Camera camera_from_exr(const std::filesystem::path &path, const std::string &vie
 
 }  // namespace
 
-Camera camera_from_file(const std::filesystem::path &path, const Imf::Header &picture, const std::string &view, double frame)
+Camera camera_from_file(const std::filesystem::path &path, const PartInfo &picture, const std::string &view, double frame)
 try {
     if (lower(path.extension().string()) == ".exr")
         return camera_from_exr(path, view);

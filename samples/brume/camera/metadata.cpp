@@ -2,10 +2,6 @@
 #include <numbers>
 
 #include <ImathMatrix.h>
-#include <ImfDoubleAttribute.h>
-#include <ImfFloatAttribute.h>
-#include <ImfIntAttribute.h>
-#include <ImfMatrixAttribute.h>
 #include <fmt/format.h>
 
 #include "camera/camera.hpp"
@@ -16,29 +12,30 @@ namespace {
 using Imath::M44d;
 using Imath::V3d;
 
-std::optional<M44d> matrix(const Imf::Header &header, const char *name)
+const std::vector<double> *numbers(const PartInfo &part, const char *name)
 {
-    std::optional<M44d> found;
-    if (const auto *f = header.findTypedAttribute<Imf::M44fAttribute>(name))
-        found = M44d(f->value());
-    if (const auto *d = header.findTypedAttribute<Imf::M44dAttribute>(name))
-        found = d->value();
-    if (found)
-        for (int i = 0; i < 16; ++i)
-            if (!std::isfinite((*found)[i / 4][i % 4]))
-                return std::nullopt;
-    return found;
+    const auto at = part.attributes.find(name);
+    return at == part.attributes.end() ? nullptr : &at->second;
 }
 
-std::optional<double> number(const Imf::Header &header, const char *name)
+std::optional<M44d> matrix(const PartInfo &part, const char *name)
 {
-    if (const auto *f = header.findTypedAttribute<Imf::FloatAttribute>(name))
-        return double(f->value());
-    if (const auto *d = header.findTypedAttribute<Imf::DoubleAttribute>(name))
-        return d->value();
-    if (const auto *i = header.findTypedAttribute<Imf::IntAttribute>(name))
-        return double(i->value());
-    return std::nullopt;
+    const std::vector<double> *elements = numbers(part, name);
+    if (!elements || elements->size() != 16)
+        return std::nullopt;
+    M44d m;
+    for (int i = 0; i < 16; ++i) {
+        m[i / 4][i % 4] = (*elements)[std::size_t(i)];
+        if (!std::isfinite(m[i / 4][i % 4]))
+            return std::nullopt;
+    }
+    return m;
+}
+
+std::optional<double> number(const PartInfo &part, const char *name)
+{
+    const std::vector<double> *value = numbers(part, name);
+    return value && value->size() == 1 ? std::optional(value->front()) : std::nullopt;
 }
 
 /// `m` maps row vectors from camera to world; its rows are the camera's right, up and `back`ward axes and its place.
@@ -105,9 +102,9 @@ struct Matrices {
 };
 
 /// pbrt stores matrices for column vectors. A translation shows it; without one, what the other reading makes of the NDC.
-std::optional<Matrices> read_standard(const Imf::Header &header, const M44d &world_to_camera, Camera &camera)
+std::optional<Matrices> read_standard(const PartInfo &part, const M44d &world_to_camera, Camera &camera)
 try {
-    const auto world_to_ndc = matrix(header, "worldToNDC");
+    const auto world_to_ndc = matrix(part, "worldToNDC");
     const bool rows = is_affine(world_to_camera), columns = is_affine(world_to_camera.transposed());
     if (!rows && !columns) {
         const M44d &m = world_to_camera;
@@ -129,7 +126,7 @@ try {
 
 /// NDC of the standard runs over 0..1 with y down. Renderers write 0..1 with y up and -1..1 screen space there as well, and
 /// some span 0..1 by the shorter side of the window alone.
-void add_projection(const Matrices &matrices, const Imf::Header &header, Camera &camera)
+void add_projection(const Matrices &matrices, const PartInfo &part, Camera &camera)
 {
     const M44d &m = *matrices.camera_to_ndc;
     const double w = matrices.w_slope(), tilt = 1e-3 * std::abs(w);
@@ -152,19 +149,18 @@ void add_projection(const Matrices &matrices, const Imf::Header &header, Camera 
     if (matrices.were_transposed)
         how += how.empty() ? "for column vectors" : ", for column vectors";
 
-    const Imath::Box2i &display = header.displayWindow();
+    const Window &display = part.display_window;
     const double width = double(display.max.x) - display.min.x + 1, height = double(display.max.y) - display.min.y + 1;
-    const double window = width * double(header.pixelAspectRatio()) / height;
+    const double window = width * part.pixel_aspect / height;
     if (std::abs(x_slope / std::abs(y_slope) - 1) < 1e-4 && std::abs(window - 1) > 1e-3) {
         const double wide = std::max(window, 1.0), high = std::max(1 / window, 1.0), half = 0.5 * (p.top - p.bottom);
         const double x = 0.5 * (p.left + p.right), y = 0.5 * (p.top + p.bottom);
         p = {x - half * wide, x + half * wide, y - half * high, y + half * high};
         how += how.empty() ? "of the shorter side" : ", of the shorter side";
-    } else if (const double aspect = p.pixel_aspect(display);
-               std::abs(aspect / double(header.pixelAspectRatio()) - 1) > 0.02) {
+    } else if (const double aspect = p.pixel_aspect(display); std::abs(aspect / part.pixel_aspect - 1) > 0.02) {
         camera.notes.push_back(fmt::format("worldToNDC has pixels of the aspect {:.4g}, pixelAspectRatio is {:.4g}: the "
                                            "former is taken",
-                                           aspect, double(header.pixelAspectRatio())));
+                                           aspect, part.pixel_aspect));
     }
     camera.projection = p;
     camera.projection_source = how.empty() ? "worldToNDC" : fmt::format("worldToNDC (read as {})", how);
@@ -182,19 +178,19 @@ void take_pose(Camera &camera, const std::optional<Pose> &pose, const char *matr
     camera.pose_source = source;
 }
 
-void add_standard(const Imf::Header &header, Camera &camera)
+void add_standard(const PartInfo &part, Camera &camera)
 {
-    const auto world_to_camera = matrix(header, "worldToCamera");
+    const auto world_to_camera = matrix(part, "worldToCamera");
     if (!world_to_camera) {
-        if (header.find("worldToCamera") != header.end())
+        if (part.attributes.contains("worldToCamera"))
             camera.notes.push_back("worldToCamera is ignored: expected a 4 x 4 matrix of finite numbers");
         return;
     }
-    const auto matrices = read_standard(header, *world_to_camera, camera);
+    const auto matrices = read_standard(part, *world_to_camera, camera);
     if (!matrices)
         return;
     if (matrices->camera_to_ndc)
-        add_projection(*matrices, header, camera);
+        add_projection(*matrices, part, camera);
 
     // The world is right-handed, so a camera with x right and y up that mirrors looks along +z (the standard's; Mantra's,
     // whose NDC has the sign of one that looks along -z), and one that does not looks along -z. Where the NDC shows +z
@@ -208,9 +204,9 @@ void add_standard(const Imf::Header &header, Camera &camera)
               matrices->were_transposed ? "worldToCamera (for column vectors)" : "worldToCamera");
 }
 
-void add_vray(const Imf::Header &header, Camera &camera)
+void add_vray(const PartInfo &part, Camera &camera)
 {
-    if (const auto camera_to_world = matrix(header, "cameraTransform"); camera_to_world && !camera.pose) {
+    if (const auto camera_to_world = matrix(part, "cameraTransform"); camera_to_world && !camera.pose) {
         if (is_affine(*camera_to_world))
             take_pose(camera, pose_from_rows(*camera_to_world, 1), "cameraTransform",
                       "cameraTransform (V-Ray's, camera to world)");
@@ -219,15 +215,15 @@ void add_vray(const Imf::Header &header, Camera &camera)
     }
     if (camera.projection)
         return;
-    if (const auto projection = number(header, "cameraProjection"); projection && *projection != 0) {
+    if (const auto projection = number(part, "cameraProjection"); projection && *projection != 0) {
         camera.notes.push_back(
             fmt::format("cameraProjection is {} (expected 0, perspective): no field of view", *projection));
         return;
     }
-    auto fov = number(header, "cameraFov");
+    auto fov = number(part, "cameraFov");
     std::string source = "cameraFov (V-Ray's, horizontal)";
     if (!fov) {
-        const auto aperture = number(header, "cameraAperture"), focal = number(header, "cameraFocalLength");
+        const auto aperture = number(part, "cameraAperture"), focal = number(part, "cameraFocalLength");
         if (!aperture || !focal || !(*focal > 0))
             return;
         fov = 2 * std::atan(0.5 * *aperture / *focal) * 180 / std::numbers::pi;
@@ -239,7 +235,7 @@ void add_vray(const Imf::Header &header, Camera &camera)
         return;
     }
     camera.projection =
-        Projection::from_horizontal_fov(*fov * std::numbers::pi / 180, header.displayWindow(), header.pixelAspectRatio());
+        Projection::from_horizontal_fov(*fov * std::numbers::pi / 180, part.display_window, part.pixel_aspect);
     camera.projection_source = source;
 }
 
@@ -260,16 +256,16 @@ void refuse_implausible(Camera &camera)
 
 }  // namespace
 
-Camera camera_from_metadata(const Imf::Header &header, Implausible implausible)
+Camera camera_from_metadata(const PartInfo &part, Implausible implausible)
 {
     Camera camera;
     const auto check = [&] {
         if (implausible == Implausible::kRefused)
             refuse_implausible(camera);
     };
-    add_standard(header, camera);
+    add_standard(part, camera);
     check();
-    add_vray(header, camera);
+    add_vray(part, camera);
     check();
     return camera;
 }

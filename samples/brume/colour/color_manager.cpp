@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <ImfChromaticities.h>
-#include <ImfStandardAttributes.h>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -20,6 +18,9 @@ namespace ocio = OCIO_NAMESPACE;
 
 /// Pixels handed to OCIO at a time.
 constexpr std::size_t kRun = 1 << 14;
+
+/// As configs have it.
+constexpr const char *kNamesOfSrgb[] = {"sRGB", "srgb_texture", "srgb_tx", "sRGB - Texture", "Utility - sRGB - Texture"};
 
 void apply(const ocio::ConstCPUProcessorRcPtr &processor, float *pixels, std::size_t count, int channels)
 {
@@ -80,28 +81,49 @@ ColorManager::ColorManager(const ColorRequest &request)
     }
 }
 
+std::string ColorManager::name_in_config(const std::string &space) const
+{
+    if (space.empty() || config_->getColorSpace(space.c_str()))
+        return space;
+    if (space == "sRGB")
+        for (const char *other : kNamesOfSrgb)
+            if (config_->getColorSpace(other))
+                return other;
+    return "";
+}
+
+ocio::ConstCPUProcessorRcPtr ColorManager::processor(const std::string &from, const std::string &to) const
+{
+    const auto p = config_->getProcessor(from.c_str(), to.c_str());
+    return p->isNoOp() ? nullptr : p->getDefaultCPUProcessor();
+}
+
 void ColorManager::load(const ColorRequest &request)
 {
     const char *path = std::getenv("OCIO");
     config_ = path && *path ? ocio::Config::CreateFromEnv() : builtin_config();
-    const auto check = [&](const char *option, const std::string &space) {
-        if (space.empty() || config_->getColorSpace(space.c_str()))
-            return;
+    const auto in_config = [&](const char *option, const std::string &space) -> std::string {
+        if (const std::string name = name_in_config(space); space.empty() || !name.empty())
+            return name;
         std::string known;
         for (int i = 0; i < config_->getNumColorSpaces(); ++i)
             known += fmt::format("{}{}", i ? ", " : "", config_->getColorSpaceNameByIndex(i));
         throw RequestError(fmt::format("{} '{}' is not in {}; it has {}", option, space, source_, known));
     };
-    check("--input-space", request.input_space);
-    check("--output-space", request.output_space);
 
     const std::string working = ocio::ROLE_SCENE_LINEAR;
-    const std::string input = request.input_space.empty() ? working : request.input_space;
-    const std::string output = request.output_space.empty() ? input : request.output_space;
-    const auto processor = [&](const std::string &from, const std::string &to) -> ocio::ConstCPUProcessorRcPtr {
-        const auto p = config_->getProcessor(from.c_str(), to.c_str());
-        return p->isNoOp() ? nullptr : p->getDefaultCPUProcessor();
+    const std::string asked_in = in_config("--input-space", request.input_space);
+    const std::string asked_out = in_config("--output-space", request.output_space);
+    const std::string input = asked_in.empty() ? working : asked_in;
+    const std::string output = asked_out.empty() ? input : asked_out;
+    const auto same = [&](const char *space) {
+        const auto a = config_->getColorSpace(space), b = config_->getColorSpace(output.c_str());
+        return a && b && a->getName() == std::string_view(b->getName());
     };
+    said_of_output_ = same(ocio::ROLE_SCENE_LINEAR) ? "Linear" : "";
+    for (const char *name : kNamesOfSrgb)
+        if (same(name))
+            said_of_output_ = "sRGB";
     if (!request.input_space.empty() || !request.output_space.empty()) {
         in_ = processor(input, working);
         out_ = processor(working, output);
@@ -126,21 +148,28 @@ void ColorManager::to_working(float *pixels, std::size_t count, int channels) co
     apply(in_, pixels, count, channels);
 }
 
+void ColorManager::file_to_working(const ImageFile &file, float *pixels, std::size_t count, int channels) const
+{
+    const auto &said = file.source().color_space;
+    if (!said || said->empty())
+        return;
+    const std::string space = config_ ? name_in_config(*said) : "";
+    if (space.empty())
+        throw FrameError(fmt::format("{}: pixels are {}, which {} does not have", file.path().string(), *said, source_));
+    apply(processor(space, ocio::ROLE_SCENE_LINEAR), pixels, count, channels);
+}
+
 void ColorManager::from_working(float *pixels, std::size_t count, int channels) const
 {
     apply(out_, pixels, count, channels);
 }
 
-LuminanceWeights ColorManager::luminance_weights(const Imf::Header &header, std::vector<std::string> *warnings) const
+LuminanceWeights ColorManager::luminance_weights(const PartInfo &part, std::vector<std::string> *warnings) const
 {
-    if (has_input_space_ || !Imf::hasChromaticities(header))
+    if (has_input_space_ || !part.chromaticities)
         return weights_;
-    try {
-        const Imath::M44f to_xyz = Imf::RGBtoXYZ(Imf::chromaticities(header), 1);
-        if (const float sum = to_xyz[0][1] + to_xyz[1][1] + to_xyz[2][1]; sum > 0 && std::isfinite(sum))
-            return normalized({to_xyz[0][1], to_xyz[1][1], to_xyz[2][1]});
-    } catch (const std::exception &) {
-    }
+    if (const auto weights = luminance_of(*part.chromaticities))
+        return normalized(*weights);
     if (warnings)
         warnings->push_back("its chromaticities are degenerate: luminance weights are the working space's");
     return weights_;

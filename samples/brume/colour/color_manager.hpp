@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <ImfChromaticitiesAttribute.h>
-#include <ImfHeader.h>
 #include <OpenColorIO/OpenColorIO.h>
 
+#include "image/file.hpp"
 #include "metrics/metrics.hpp"
 
 namespace brume::tool {
@@ -30,6 +29,10 @@ public:
     void to_working(float *pixels, std::size_t count, int channels) const;
     void from_working(float *pixels, std::size_t count, int channels) const;
 
+    /// The same of one file's pixels where nobody asked: by what it says of them; as they are where it says nothing. Throws
+    /// FrameError.
+    void file_to_working(const ImageFile &file, float *pixels, std::size_t count, int channels) const;
+
     /// Whether pixels leave in another space than they came in, so that `chromaticities` no longer holds.
     bool changes_space() const { return changes_space_; }
 
@@ -37,27 +40,32 @@ public:
     bool converts() const { return in_ || out_; }
 
     /// Of the space that pixels leave in, where they change theirs and it is known.
-    const std::optional<Imf::Chromaticities> &new_chromaticities() const { return new_chromaticities_; }
+    const std::optional<Chromaticities> &new_chromaticities() const { return new_chromaticities_; }
 
     /// Of the space that the fog works in. Without --input-space the file's own `chromaticities` decide, where it has them
     /// and they are not degenerate, which is put to `warnings`.
-    LuminanceWeights luminance_weights(const Imf::Header &header, std::vector<std::string> *warnings = nullptr) const;
+    LuminanceWeights luminance_weights(const PartInfo &part, std::vector<std::string> *warnings = nullptr) const;
 
     /// From the working space through the default view of the default display; RGB, eight bits.
     std::vector<std::uint8_t> to_display(const float *pixels, std::size_t count, int channels) const;
+
+    /// What files can say of the space that pixels leave in: "sRGB", "Linear" or nothing.
+    const std::string &said_of_output() const { return said_of_output_; }
 
     std::string description() const;
     const std::string &warning() const { return warning_; }
 
 private:
     void load(const ColorRequest &request);
+    OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor(const std::string &from, const std::string &to) const;
+    std::string name_in_config(const std::string &space) const;
 
     OCIO_NAMESPACE::ConstConfigRcPtr config_;
     OCIO_NAMESPACE::ConstCPUProcessorRcPtr in_, out_, view_;
     LuminanceWeights weights_;
     bool changes_space_ = false, has_input_space_ = false;
-    std::optional<Imf::Chromaticities> new_chromaticities_;
-    std::string source_, warning_;
+    std::optional<Chromaticities> new_chromaticities_;
+    std::string source_, warning_, said_of_output_;
 };
 
 }  // namespace brume::tool

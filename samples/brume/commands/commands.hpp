@@ -20,6 +20,8 @@ void add_bench(CLI::App &app, Action &chosen);
 void add_effects(CLI::App &app, Action &chosen);
 void add_schema(CLI::App &app, Action &chosen);
 void add_sheet(CLI::App &app, Action &chosen);
+void add_stats(CLI::App &app, Action &chosen);
+void add_sweep(CLI::App &app, Action &chosen);
 void add_media(CLI::App &app, Action &chosen);
 
 }  // namespace brume::tool

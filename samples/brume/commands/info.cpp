@@ -10,8 +10,8 @@
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "exr/depth_window.hpp"
-#include "exr/frame.hpp"
+#include "image/depth_window.hpp"
+#include "image/frame.hpp"
 #include "frames/pattern.hpp"
 #include "run/depth_count.hpp"
 #include "run/inputs.hpp"
@@ -31,17 +31,12 @@ struct InfoOptions {
     std::vector<std::string> inputs;  ///< role=layer
 };
 
-ordered_json window_of(const Imath::Box2i &w)
+ordered_json window_of(const Window &w)
 {
     return {{"x", w.min.x}, {"y", w.min.y}, {"width", w.max.x - w.min.x + 1}, {"height", w.max.y - w.min.y + 1}};
 }
 
-const char *type_name(Imf::PixelType type)
-{
-    return type == Imf::HALF ? "half" : type == Imf::FLOAT ? "float" : "uint";
-}
-
-ordered_json parts_of(const ExrFile &file)
+ordered_json parts_of(const ImageFile &file)
 {
     ordered_json parts = ordered_json::array();
     for (const PartInfo &part : file.parts()) {
@@ -52,17 +47,19 @@ ordered_json parts_of(const ExrFile &file)
                        {"data_window", window_of(part.data_window)},
                        {"channels", ordered_json::array()}};
         for (const ChannelInfo &c : part.channels)
-            p["channels"].push_back({{"name", c.name}, {"type", type_name(c.type)}});
+            p["channels"].push_back({{"name", c.name}, {"type", name_of(c.type)}});
         parts.push_back(std::move(p));
     }
     return parts;
 }
 
-void describe_depth(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice *color, int frame)
+void describe_depth(ordered_json &info, const ImageFile &file, const InfoOptions &options, const ColorChoice *color,
+                    int frame)
 {
     const std::string depth_file = options.picture.depth_file();
-    const auto describe = [&](const ExrFile &source, const DepthChoice &depth) {
-        const auto values = read_channel(source, depth.part, depth.channel);
+    const auto describe = [&](const ImageFile &source, DepthChoice depth) {
+        options.picture.take_depth_scale(depth, source);
+        const auto values = read_depth(source, depth);
         const DepthCount count = count_depth(values, options.picture.depth_kind(), options.picture.far);
         info["depth"] = {{"channel", depth.channel},
                          {"part", source.parts()[depth.part].label()},
@@ -82,7 +79,7 @@ void describe_depth(ordered_json &info, const ExrFile &file, const InfoOptions &
             info["depth"]["file"] = source.path().string();
     };
     if (!depth_file.empty()) {
-        const ExrFile source(FilePattern(depth_file).existing_at(frame));
+        const ImageFile source(FilePattern(depth_file).existing_at(frame));
         return describe(source, resolve_depth(source, options.picture.depth_request(), nullptr));
     }
     std::string why_not;
@@ -94,7 +91,7 @@ void describe_depth(ordered_json &info, const ExrFile &file, const InfoOptions &
         info["depth"] = {{"none", why_not}};
 }
 
-void describe_camera(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice &color,
+void describe_camera(ordered_json &info, const ImageFile &file, const InfoOptions &options, const ColorChoice &color,
                      int frame)
 {
     const Camera camera = camera_of_picture(file, color, options.picture, {}, frame);
@@ -112,7 +109,7 @@ void describe_camera(ordered_json &info, const ExrFile &file, const InfoOptions 
         c["notes"] = camera.notes;
 }
 
-void describe_inputs(ordered_json &info, const ExrFile &file, const InfoOptions &options, const ColorChoice *color,
+void describe_inputs(ordered_json &info, const ImageFile &file, const InfoOptions &options, const ColorChoice *color,
                      int frame)
 {
     const ContextHandle context = create_context("cpu");
@@ -123,7 +120,7 @@ void describe_inputs(ordered_json &info, const ExrFile &file, const InfoOptions 
         throw RequestError(
             fmt::format("--input {}: {} has no colour that it could go with", asked.front().role, file.path().string()));
     info["inputs"] = ordered_json::object();
-    for (const OpenInput &input : open_inputs(file, *color, frame, asked, {}, {}))
+    for (const OpenInput &input : open_inputs(file, *color, frame, asked, {}, {}, {}))
         info["inputs"][input.choice.role] = description(input);
     // No scene says here that some effect will want them.
     for (const std::string &role : known_roles(context.get()))
@@ -204,14 +201,14 @@ int info(const InfoOptions &options)
 {
     const FilePattern pattern(options.input);
     const auto files = list_frames(pattern, pattern, "");
-    const ExrFile file(files.front().input);
+    const ImageFile file(files.front().input);
     ordered_json info{{"file", file.path().string()}};
     if (pattern.is_sequence())
         info["frames"] = fmt::format("{} to {}, {} files", files.front().frame, files.back().frame, files.size());
     if (const auto notes = sequence_notes(pattern); !notes.empty())
         info["frame_notes"] = notes;
-    info["display_window"] = window_of(file.display_window());
-    info["pixel_aspect"] = file.header(0).pixelAspectRatio();
+    info["display_window"] = window_of(file.part(0).display_window);
+    info["pixel_aspect"] = file.part(0).pixel_aspect;
     info["parts"] = parts_of(file);
 
     std::optional<ColorChoice> color;

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "exr/narrow.hpp"
+#include "image/formats.hpp"
 #include "frames/pattern.hpp"
 #include "support/error.hpp"
 
@@ -18,14 +18,6 @@ bool parse_number(const std::string &text, double &value)
 {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-}
-
-/// Where the colon of "FILE.exr:CHANNEL" is; npos where there is none.
-std::size_t depth_colon(const std::string &text)
-{
-    constexpr std::string_view ending = ".exr";
-    const auto at = lower(text).find(std::string(ending) + ":");
-    return at == std::string::npos ? at : at + ending.size();
 }
 
 }  // namespace
@@ -102,8 +94,14 @@ void PictureOptions::add_to(CLI::App &command)
         ->type_name("LAYER");
     command.add_option("--part", layers.part, "Part of a multi-part file, by name or index")->type_name("NAME");
     command.add_option("--view", layers.view, "View of a stereo file")->type_name("NAME");
-    command.add_option("--depth", layers.depth, "Depth channel, exact name; FILE.exr:CHANNEL for a file of its own")
+    command
+        .add_option("--depth", layers.depth,
+                    "Depth channel, exact name; FILE or FILE:CHANNEL for a file of its own, EXR, PNG, TIFF, PFM or NPY")
         ->type_name("NAME");
+    command
+        .add_option("--depth-scale", depth_scale,
+                    "Scene units in one step of depth that is stored as integers, such as 0.001")
+        ->check(CLI::PositiveNumber);
     command
         .add_option("--depth-kind", depth_kind_text,
                     "planar, ray, negative (planar, of the other sign), inverse or normalized:NEAR,FAR")
@@ -130,19 +128,29 @@ void PictureOptions::add_to(CLI::App &command)
 
 std::string PictureOptions::depth_file() const
 {
-    const auto colon = depth_colon(layers.depth);
-    return colon == std::string::npos ? "" : layers.depth.substr(0, colon);
+    const auto end = end_of_file_name(layers.depth);
+    return end == std::string::npos ? "" : layers.depth.substr(0, end);
 }
 
 LayerRequest PictureOptions::depth_request() const
 {
     LayerRequest request = layers;
-    if (const auto colon = depth_colon(layers.depth); colon != std::string::npos)
-        request.depth = layers.depth.substr(colon + 1);
+    if (const auto end = end_of_file_name(layers.depth); end != std::string::npos)
+        request.depth = layers.depth.substr(std::min(layers.depth.size(), end + 1));
     return request;
 }
 
-Camera PictureOptions::camera_asked(const Imf::Header &picture, const CameraBlock &scene, const std::string &view,
+void PictureOptions::take_depth_scale(DepthChoice &depth, const ImageFile &file) const
+{
+    const SampleType type = file.part(depth.part).find(depth.channel)->type;
+    if (depth_scale == 0 && is_normalized(type))
+        throw RequestError(fmt::format("{}: depth '{}' is stored as {}; expected --depth-scale, the scene units in one step",
+                                       file.path().string(), depth.channel, name_of(type)));
+    if (depth_scale != 0)
+        depth.scale = depth_scale;
+}
+
+Camera PictureOptions::camera_asked(const PartInfo &picture, const CameraBlock &scene, const std::string &view,
                                     int frame) const
 {
     Camera camera;

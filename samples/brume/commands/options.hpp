@@ -8,7 +8,7 @@ class App;
 }
 
 #include "camera/block.hpp"
-#include "exr/resolve.hpp"
+#include "image/resolve.hpp"
 
 namespace brume::tool {
 
@@ -37,6 +37,7 @@ struct PictureOptions {
     LayerRequest layers;
     std::string depth_kind_text = "planar", sky_text = "fog", camera_file;
     double far = 1e9;
+    double depth_scale = 0;  ///< 0: not given
     bool zero_is_near = false;
     double vertical_fov = 0;  ///< [degrees]; 0: not given
 
@@ -50,13 +51,15 @@ struct PictureOptions {
     }
     Sky sky() const { return Sky::parse(sky_text); }
 
-    /// "FILE.exr:CHANNEL" names depth in a file of its own; empty where depth is in the picture's file.
+    /// "FILE" or "FILE:CHANNEL" names depth in a file of its own; empty where depth is in the picture's file.
     std::string depth_file() const;
     /// The request for depth's own file, or for the picture's.
     LayerRequest depth_request() const;
+    /// Depth in integers means nothing without --depth-scale. Throws RequestError.
+    void take_depth_scale(DepthChoice &depth, const ImageFile &file) const;
 
     /// What goes before the scene's camera: --camera or --vfov, which keeps the scene's centre and aspect.
-    Camera camera_asked(const Imf::Header &picture, const CameraBlock &scene = {}, const std::string &view = "",
+    Camera camera_asked(const PartInfo &picture, const CameraBlock &scene = {}, const std::string &view = "",
                         int frame = 0) const;
 };
 

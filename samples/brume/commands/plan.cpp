@@ -39,8 +39,8 @@ int plan(const PlanOptions &options)
     fogger.learn_roles(open.file, open.color, first.frame);
     const std::vector<OpenInput> inputs = fogger.open_inputs(open.file, open.color, first.frame, {});
     fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs, first.frame);
-    const brume_plan plan = fogger.plan_for(
-        open.file, open.color, colors.luminance_weights(open.file.header(open.color.part)), roles_of(inputs), first.frame);
+    const brume_plan plan = fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.part(open.color.part)),
+                                            roles_of(inputs), first.frame);
     const Shot shot = fogger.shot_of(open.file, open.color, first.frame);
 
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
@@ -61,7 +61,7 @@ int plan(const PlanOptions &options)
     }
     ordered_json given = ordered_json::object();
     for (const OpenInput &input : inputs)
-        given[input.choice.role] = description(input);
+        given[name_of(input)] = description(input);
     const ordered_json out{
         {"scene", options.fog.scene},
         {"lights", fogger.scene_info().light_count},
@@ -91,7 +91,7 @@ int plan(const PlanOptions &options)
     fmt::print("{} x {} pixels on {} ({})\n", part.width(), part.height(), backend_name(device.backend), device.device);
     fmt::print("colour {}; depth {}\n", open.color.label(), open.depth.channel);
     for (const OpenInput &input : inputs)
-        fmt::print("input {} from {}\n", input.choice.role, printable(description(input)));
+        fmt::print("input {} from {}\n", name_of(input), printable(description(input)));
     fmt::print("{} lights; {} Gaussians; {} coefficients of the environment\n", out["lights"].get<int>(),
                out["gaussians"].get<int>(), out["environment"].get<int>());
     for (const auto &e : entries) {

@@ -12,7 +12,9 @@ void add_run(CLI::App &app, Action &chosen)
     auto *command = app.add_subcommand("run", "Put fog into a picture or a sequence");
     auto options = std::make_shared<SequenceOptions>();
     options->fog.add_to(*command);
-    command->add_option("INPUT", options->input, "EXR file, or a pattern such as shot.%04d.exr or shot.####.exr")
+    command
+        ->add_option("INPUT", options->input,
+                     "EXR, TIFF, PNG, JPEG, DPX, HDR, PFM or NPY file, or a pattern such as shot.%04d.exr or shot.####.exr")
         ->required();
     command->add_option("-o,--output", options->output, "Output file or pattern; folders are made")
         ->required()
@@ -21,10 +23,14 @@ void add_run(CLI::App &app, Action &chosen)
         ->type_name("RANGE");
     command
         ->add_option("--input-space", options->spaces.input_space,
-                     "Colour space of the pixels (default: scene_linear of the config)")
+                     "Colour space of the pixels (default: what the file says, or scene_linear of the config)")
         ->type_name("SPACE");
     command->add_option("--output-space", options->spaces.output_space, "Colour space to write (default: as they came)")
         ->type_name("SPACE");
+    command
+        ->add_option("--output-type", options->output_type,
+                     "uint8, uint16, half or float, for outputs that are no rewritten EXR (default: what loses least)")
+        ->type_name("TYPE");
     command
         ->add_option("--preview", options->preview,
                      "PNG through the default view; of the first frame unless it has a frame number too")

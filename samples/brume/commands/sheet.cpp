@@ -9,7 +9,7 @@
 #include "colour/color_manager.hpp"
 #include "colour/png.hpp"
 #include "commands/commands.hpp"
-#include "exr/frame.hpp"
+#include "image/frame.hpp"
 #include "frames/pattern.hpp"
 #include "support/error.hpp"
 
@@ -57,11 +57,14 @@ Thumbnail shrink(const Frame &frame, int width)
     return small;
 }
 
-Thumbnail load(const std::filesystem::path &path, int width)
+Thumbnail load(const std::filesystem::path &path, const ColorManager &colors, int width)
 {
-    ExrFile file(path);
+    ImageFile file(path);
     const ColorChoice color = resolve_color(file, {});
-    return shrink(read_frame(std::move(file), color, nullptr), width);
+    Frame frame = read_frame(std::move(file), color, nullptr);
+    colors.file_to_working(frame.file, frame.pixels.data(), std::size_t(frame.width) * std::size_t(frame.height),
+                           frame.channels);
+    return shrink(frame, width);
 }
 
 std::vector<FrameFile> evenly(const std::vector<FrameFile> &all, std::size_t count)
@@ -84,8 +87,8 @@ int sheet(const SheetOptions &options)
 
     std::vector<Thumbnail> cells;  // a column holds a frame: before above after
     for (const FrameFile &f : chosen) {
-        cells.push_back(load(f.input, options.cell_width));
-        cells.push_back(load(f.output, options.cell_width));
+        cells.push_back(load(f.input, colors, options.cell_width));
+        cells.push_back(load(f.output, colors, options.cell_width));
     }
     int cell_width = 0, cell_height = 0;
     for (const Thumbnail &t : cells) {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "compare/header_changes.hpp"
-#include "exr/frame.hpp"
+#include "exr/header_changes.hpp"
+#include "image/frame.hpp"
 #include "metrics/flip.hpp"
 #include "support/error.hpp"
 
@@ -15,7 +15,7 @@ namespace brume::tool {
 namespace {
 
 struct Loaded {
-    ExrFile file;
+    ImageFile file;
     int part;
     Picture picture;
     LuminanceWeights weights;
@@ -26,11 +26,12 @@ Loaded load(const std::string &path, const LayerRequest &request, const ColorMan
 {
     if (!std::filesystem::exists(path))
         throw FrameError(fmt::format("{}: no such file", path));
-    ExrFile file(path);
+    ImageFile file(path);
     const ColorChoice color = resolve_color(file, request);
-    const LuminanceWeights weights = colors.luminance_weights(file.header(color.part));
+    const LuminanceWeights weights = colors.luminance_weights(file.part(color.part));
     Frame frame = read_frame(file, color, nullptr);
-    const Imath::Box2i &window = frame.part().data_window;
+    colors.file_to_working(file, frame.pixels.data(), std::size_t(frame.width) * std::size_t(frame.height), frame.channels);
+    const Window &window = frame.part().data_window;
     Picture picture{window.min.x, window.min.y, frame.width, frame.height, {}};
     if (frame.channels == 3) {
         picture.rgb = std::move(frame.pixels);
@@ -121,7 +122,7 @@ void check_layers(const std::vector<PairFiles> &pairs, const CompareRequest &req
         try {
             for (const std::string &path : {files.a, files.b})
                 if (std::filesystem::exists(path))
-                    resolve_color(ExrFile(path), request.layers);
+                    resolve_color(ImageFile(path), request.layers);
             return;
         } catch (const FrameError &) {
         }

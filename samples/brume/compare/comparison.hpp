@@ -7,7 +7,7 @@
 
 #include "colour/color_manager.hpp"
 #include "compare/pairs.hpp"
-#include "exr/resolve.hpp"
+#include "image/resolve.hpp"
 #include "metrics/limits.hpp"
 
 namespace brume::tool {

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfOutputFile.h>
 #include <fmt/format.h>
 
 #include "colour/png.hpp"
-#include "exr/output_stream.hpp"
+#include "exr/new_file.hpp"
 #include "support/error.hpp"
-#include "support/pending_file.hpp"
 
 namespace brume::tool {
 namespace {
@@ -27,23 +22,11 @@ std::vector<float> absolute_difference(const Picture &a, const Picture &b)
 
 void write_exr(const std::string &path, const Picture &where, const std::vector<float> &rgb)
 {
-    const Imath::Box2i window({where.x, where.y}, {where.x + where.width - 1, where.y + where.height - 1});
-    Imf::Header header(window, window);
-    Imf::FrameBuffer buffer;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::string name(1, "RGB"[c]);
-        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, rgb.data() + c, window, 3 * sizeof(float)));
-    }
-    PendingFile pending(path);
-    OutputStream stream(pending.path().string(), path);
-    {
-        Imf::OutputFile file(stream, header);
-        file.setFrameBuffer(buffer);
-        file.writePixels(where.height);
-    }
-    stream.close();
-    pending.commit();
+    const Window window{{where.x, where.y}, {where.x + where.width - 1, where.y + where.height - 1}};
+    NewPicture picture{window, window};
+    for (std::size_t c = 0; c < 3; ++c)
+        picture.channels.push_back({std::string(1, "RGB"[c]), SampleType::kFloat, rgb.data() + c, 3});
+    write_new_exr(path, picture);
 }
 
 }  // namespace

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "colour/color_manager.hpp"
 #include "environment/harmonics.hpp"
-#include "exr/frame.hpp"
+#include "image/frame.hpp"
 #include "run/sdk.hpp"
 #include "support/error.hpp"
 
@@ -12,12 +13,14 @@ namespace {
 
 HarmonicsRgb project_file(const std::string &path, std::uint32_t up)
 {
-    ExrFile file(path);
+    ImageFile file(path);
     const ColorChoice color = resolve_color(file, {});
-    const Frame frame = read_frame(std::move(file), color, nullptr);
-    const Imath::Box2i whole = frame.file.header(color.part).displayWindow(), &data = frame.part().data_window;
+    Frame frame = read_frame(std::move(file), color, nullptr);
+    ColorManager().file_to_working(frame.file, frame.pixels.data(), frame.pixels.size() / std::size_t(frame.channels),
+                                   frame.channels);
+    const Window whole = frame.file.part(color.part).display_window, &data = frame.part().data_window;
     const int width = whole.max.x - whole.min.x + 1, height = whole.max.y - whole.min.y + 1;
-    if (!whole.intersects(data.min) || !whole.intersects(data.max))
+    if (!whole.contains(data.min) || !whole.contains(data.max))
         throw FrameError(fmt::format("{}: pixels outside the display window; expected a lat-long image within it", path));
     return project_latlong({width, height, data.min.x - whole.min.x, data.min.y - whole.min.y, frame.width, frame.height,
                             frame.pixels, frame.channels},

@@ -4,10 +4,20 @@
 #include <new>
 
 #include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfInputPart.h>
+#include <ImfIntAttribute.h>
+#include <ImfMatrixAttribute.h>
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
+#include <ImfThreading.h>
 #include <fmt/format.h>
+#include <half.h>
+#include <oneapi/tbb/parallel_for.h>
 
+#include "exr/planes.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -23,12 +33,17 @@ std::vector<std::string> split(const std::string &name)
     return parts;
 }
 
+SampleType type_of(Imf::PixelType type)
+{
+    return type == Imf::HALF ? SampleType::kHalf : type == Imf::UINT ? SampleType::kUint : SampleType::kFloat;
+}
+
 /// The standard puts the view just before the base name; some writers put it first. A view's name anywhere before the
 /// base names the view, and channels without one belong to the default view.
 ChannelInfo take_apart(const std::string &name, const Imf::Channel &channel, const std::vector<std::string> &views,
                        const std::string &part_view)
 {
-    ChannelInfo info{name, "", part_view, "", channel.type, {channel.xSampling, channel.ySampling}};
+    ChannelInfo info{name, "", part_view, "", type_of(channel.type), {channel.xSampling, channel.ySampling}};
     auto components = split(name);
     info.base = components.back();
     components.pop_back();
@@ -46,48 +61,168 @@ ChannelInfo take_apart(const std::string &name, const Imf::Channel &channel, con
     return info;
 }
 
+Window window_of(const Imath::Box2i &w)
+{
+    return {{w.min.x, w.min.y}, {w.max.x, w.max.y}};
+}
+
+template <class Matrix> std::vector<double> elements_of(const Matrix &m)
+{
+    std::vector<double> elements;
+    for (int i = 0; i < 16; ++i)
+        elements.push_back(double(m[i / 4][i % 4]));
+    return elements;
+}
+
+std::vector<double> numbers_of(const Imf::Attribute &attribute)
+{
+    if (const auto *f = dynamic_cast<const Imf::FloatAttribute *>(&attribute))
+        return {double(f->value())};
+    if (const auto *d = dynamic_cast<const Imf::DoubleAttribute *>(&attribute))
+        return {d->value()};
+    if (const auto *i = dynamic_cast<const Imf::IntAttribute *>(&attribute))
+        return {double(i->value())};
+    if (const auto *m = dynamic_cast<const Imf::M44fAttribute *>(&attribute))
+        return elements_of(m->value());
+    if (const auto *m = dynamic_cast<const Imf::M44dAttribute *>(&attribute))
+        return elements_of(m->value());
+    return {};
+}
+
+Plane allocate_plane(const ChannelInfo &channel, const PartInfo &part)
+{
+    Plane plane{channel, nullptr, bytes_of(channel.type)};
+    plane.bytes = std::make_unique_for_overwrite<char[]>(plane_bytes(channel, part.data_window));
+    return plane;
+}
+
 }  // namespace
 
-const ChannelInfo *PartInfo::find(const std::string &channel_name) const
+PartInfo part_of(const Imf::Header &h, int index)
 {
-    const auto at = std::find_if(channels.begin(), channels.end(), [&](const auto &c) { return c.name == channel_name; });
-    return at == channels.end() ? nullptr : &*at;
+    PartInfo part;
+    part.index = index;
+    if (h.hasName())
+        part.name = h.name();
+    if (h.hasView())
+        part.view = h.view();
+    part.data_window = window_of(h.dataWindow());
+    part.display_window = window_of(h.displayWindow());
+    part.pixel_aspect = double(h.pixelAspectRatio());
+    const std::string type = h.hasType() ? h.type() : "";
+    part.deep = Imf::isDeepData(type);
+    part.tiled = Imf::isTiled(type) || (type.empty() && h.hasTileDescription());
+    const std::vector<std::string> views = Imf::hasMultiView(h) ? Imf::multiView(h) : Imf::StringVector{};
+    for (auto c = h.channels().begin(); c != h.channels().end(); ++c) {
+        part.channels.push_back(take_apart(c.name(), c.channel(), views, part.view));
+        part.channels.back().lossy = is_lossy_for(h.compression(), part.channels.back());
+    }
+    for (auto at = h.begin(); at != h.end(); ++at)
+        part.attributes[at.name()] = numbers_of(at.attribute());
+    if (Imf::hasChromaticities(h)) {
+        const Imf::Chromaticities &c = Imf::chromaticities(h);
+        part.chromaticities = Chromaticities{c.red, c.green, c.blue, c.white};
+    }
+    return part;
 }
 
-std::string PartInfo::label() const
+bool is_lossy_for(Imf::Compression compression, const ChannelInfo &channel)
 {
-    return name.empty() ? fmt::format("part {}", index) : fmt::format("part {} ({})", index, name);
+    const SampleType type = channel.type;
+    const std::string &base = channel.base;
+    switch (compression) {
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+        return type == SampleType::kHalf;
+    case Imf::DWAA_COMPRESSION:
+    case Imf::DWAB_COMPRESSION:
+        return type != SampleType::kUint &&
+               (base == "R" || base == "G" || base == "B" || base == "Y" || base == "RY" || base == "BY");
+    case Imf::PXR24_COMPRESSION:
+        return type == SampleType::kFloat;
+    default:
+        return false;
+    }
 }
 
-ExrFile::ExrFile(std::filesystem::path path, const ReadLimits &limits) : path_(std::move(path))
+void ExrPixels::to_floats(const std::string &channel, float *out, std::size_t stride) const
 {
-    precheck_headers(path_, limits);
-    guarded("reading headers", [&] { file_ = std::make_shared<Imf::MultiPartInputFile>(path_.c_str()); });
-    guarded("reading headers", [&] {
-        for (int index = 0; index < file_->parts(); ++index) {
-            const Imf::Header &h = file_->header(index);
-            PartInfo part;
-            part.index = index;
-            if (h.hasName())
-                part.name = h.name();
-            if (h.hasView())
-                part.view = h.view();
-            part.data_window = h.dataWindow();
-            part.compression = h.compression();
-            const std::string type = h.hasType() ? h.type() : "";
-            part.deep = Imf::isDeepData(type);
-            part.tiled = Imf::isTiled(type) || (type.empty() && h.hasTileDescription());
-            const std::vector<std::string> views = Imf::hasMultiView(h) ? Imf::multiView(h) : Imf::StringVector{};
-            if (default_view_.empty())
-                default_view_ = !views.empty() ? views.front() : part.view;
-            for (auto c = h.channels().begin(); c != h.channels().end(); ++c)
-                part.channels.push_back(take_apart(c.name(), c.channel(), views, part.view));
-            parts_.push_back(std::move(part));
+    const Plane &plane =
+        *std::find_if(planes.begin(), planes.end(), [&](const Plane &p) { return p.channel.name == channel; });
+    const std::size_t count = std::size_t(window_.width()) * std::size_t(window_.height());
+    oneapi::tbb::parallel_for(std::size_t(0), (count + kGrain - 1) / kGrain, [&](std::size_t block) {
+        const std::size_t from = block * kGrain, to = std::min(count, from + kGrain);
+        const auto convert = [&](const auto *in) {
+            for (std::size_t i = from; i < to; ++i)
+                out[i * stride] = float(in[i]);
+        };
+        switch (plane.channel.type) {
+        case SampleType::kHalf:
+            convert(reinterpret_cast<const half *>(plane.bytes.get()));
+            break;
+        case SampleType::kFloat:
+            convert(reinterpret_cast<const float *>(plane.bytes.get()));
+            break;
+        default:
+            convert(reinterpret_cast<const std::uint32_t *>(plane.bytes.get()));
+            break;
         }
     });
 }
 
-void ExrFile::rethrow(const std::string &doing, const std::exception &e) const
+Imf::PixelType exr_type(SampleType type)
+{
+    return type == SampleType::kHalf ? Imf::HALF : type == SampleType::kUint ? Imf::UINT : Imf::FLOAT;
+}
+
+Imath::Box2i exr_window(const Window &w)
+{
+    return {{w.min.x, w.min.y}, {w.max.x, w.max.y}};
+}
+
+const ExrSource *exr_of(const ImageFile &file)
+{
+    return dynamic_cast<const ExrSource *>(&file.source());
+}
+
+void set_exr_threads(int threads)
+{
+    Imf::setGlobalThreadCount(threads);
+}
+
+ExrSource::ExrSource(std::filesystem::path path, const ReadLimits &limits) : path_(std::move(path))
+{
+    precheck_headers(path_, limits);
+    guarded("reading headers", [&] { file_ = std::make_unique<Imf::MultiPartInputFile>(path_.c_str()); });
+    guarded("reading headers", [&] {
+        for (int index = 0; index < file_->parts(); ++index) {
+            const Imf::Header &h = file_->header(index);
+            parts.push_back(part_of(h, index));
+            if (default_view.empty())
+                default_view =
+                    Imf::hasMultiView(h) && !Imf::multiView(h).empty() ? Imf::multiView(h).front() : parts.back().view;
+        }
+    });
+}
+
+std::unique_ptr<StoredPixels> ExrSource::read(int index, const std::vector<std::string> &channels) const
+{
+    const PartInfo &part = parts[std::size_t(index)];
+    auto pixels = std::make_unique<ExrPixels>(part.data_window);
+    for (const std::string &channel : channels)
+        pixels->planes.push_back(allocate_plane(*part.find(channel), part));
+    guarded(fmt::format("reading {}", part.label()), [&] {
+        Imf::InputPart input(*file_, index);
+        Imf::FrameBuffer buffer;
+        for (Plane &plane : pixels->planes)
+            buffer.insert(plane.channel.name, slice_of(plane, part.data_window));
+        input.setFrameBuffer(buffer);
+        input.readPixels(part.data_window.min.y, part.data_window.max.y);
+    });
+    return pixels;
+}
+
+void ExrSource::rethrow(const std::string &doing, const std::exception &e) const
 {
     if (dynamic_cast<const FrameError *>(&e))
         throw;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <ImathBox.h>
 #include <ImfCompression.h>
@@ -12,42 +9,46 @@
 #include <ImfPixelType.h>
 
 #include "exr/precheck.hpp"
+#include "image/file.hpp"
 
 namespace brume::tool {
 
-/// A channel's full name taken apart: "character.left.R" with a view "left" is layer "character", base "R".
-struct ChannelInfo {
-    std::string name, layer, view, base;
-    Imf::PixelType type;
-    Imath::V2i sampling;
+Imf::PixelType exr_type(SampleType type);
+Imath::Box2i exr_window(const Window &window);
+
+/// What a header says of its part.
+PartInfo part_of(const Imf::Header &header, int index = 0);
+
+/// Whether this channel loses something when it is stored with this compression. DWA goes by the channel's name.
+bool is_lossy_for(Imf::Compression compression, const ChannelInfo &channel);
+
+/// One channel as the file stores it, subsampling included.
+struct Plane {
+    ChannelInfo channel;
+    std::unique_ptr<char[]> bytes;
+    std::size_t sample_bytes = 0;
 };
 
-struct PartInfo {
-    int index = 0;
-    std::string name, view;
-    Imath::Box2i data_window;
-    Imf::Compression compression;
-    bool deep = false, tiled = false;
-    std::vector<ChannelInfo> channels;
+class ExrPixels : public StoredPixels {
+public:
+    explicit ExrPixels(Window window) : window_(window) {}
+    void to_floats(const std::string &channel, float *out, std::size_t stride) const override;
 
-    int width() const { return data_window.max.x - data_window.min.x + 1; }
-    int height() const { return data_window.max.y - data_window.min.y + 1; }
-    const ChannelInfo *find(const std::string &channel_name) const;
-    /// "part 2 (depth_left)", or nothing where the file has one nameless part.
-    std::string label() const;
+    std::vector<Plane> planes;
+
+private:
+    Window window_;
 };
 
 /// An OpenEXR file whose headers have been read and found sane; pixels are read later.
-class ExrFile {
+class ExrSource : public PictureSource {
 public:
-    explicit ExrFile(std::filesystem::path path, const ReadLimits &limits = {});
+    explicit ExrSource(std::filesystem::path path, const ReadLimits &limits = {});
 
-    const std::filesystem::path &path() const { return path_; }
-    const std::vector<PartInfo> &parts() const { return parts_; }
+    std::unique_ptr<StoredPixels> read(int part, const std::vector<std::string> &channels) const override;
+
     const Imf::Header &header(int part) const { return file_->header(part); }
     Imf::MultiPartInputFile &imf() const { return *file_; }
-    const std::string &default_view() const { return default_view_; }
-    Imath::Box2i display_window() const { return header(0).displayWindow(); }
 
     /// Runs a call into OpenEXR and restates what it throws as a FrameError that names this file.
     template <class Call> auto guarded(const std::string &doing, Call &&call) const
@@ -63,9 +64,13 @@ private:
     [[noreturn]] void rethrow(const std::string &doing, const std::exception &e) const;
 
     std::filesystem::path path_;
-    std::shared_ptr<Imf::MultiPartInputFile> file_;
-    std::vector<PartInfo> parts_;
-    std::string default_view_;
+    std::unique_ptr<Imf::MultiPartInputFile> file_;
 };
+
+/// The file behind the interface; null where it is no OpenEXR file.
+const ExrSource *exr_of(const ImageFile &file);
+
+/// Threads that OpenEXR decodes and codes with.
+void set_exr_threads(int threads);
 
 }  // namespace brume::tool

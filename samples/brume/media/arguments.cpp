@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "exr/frame.hpp"
+#include "image/frame.hpp"
 #include "run/shot.hpp"
 #include "support/error.hpp"
 
@@ -53,7 +53,7 @@ std::vector<double> parse_points(const std::string &text, std::size_t dimensions
     return values;
 }
 
-Imf::Header header_of_size(const std::string &text)
+PartInfo picture_of_size(const std::string &text)
 {
     const auto x = text.find('x');
     int width = 0, height = 0;
@@ -63,7 +63,9 @@ Imf::Header header_of_size(const std::string &text)
     };
     if (x == std::string::npos || !number(0, x, width) || !number(x + 1, text.size(), height))
         throw RequestError(fmt::format("--size '{}': expected WIDTHxHEIGHT, each from 1 to 65536", text));
-    return Imf::Header(width, height);
+    PartInfo picture;
+    picture.data_window = picture.display_window = {{0, 0}, {width - 1, height - 1}};
+    return picture;
 }
 
 }  // namespace
@@ -86,24 +88,24 @@ void ViewOptions::add_to(CLI::App &command, bool with_depth)
 ViewOptions::Loaded ViewOptions::load() const
 {
     Loaded loaded;
-    std::optional<ExrFile> file;
+    std::optional<ImageFile> file;
     if (!frame_.empty())
         file.emplace(frame_);
     if (with_depth_ && !picture_.depth_file().empty())
         throw RequestError("--depth: name the file that has the depth with --frame");
-    const DepthChoice depth = with_depth_ && file ? resolve_depth(*file, picture_.depth_request(), nullptr) : DepthChoice{};
-    const Imf::Header header = file ? file->header(depth.part) : header_of_size(size_);
-    Camera camera = picture_.camera_asked(header);
-    camera.fill_from(file ? camera_from_metadata(*file, depth.part) : camera_from_metadata(header));
+    DepthChoice depth = with_depth_ && file ? resolve_depth(*file, picture_.depth_request(), nullptr) : DepthChoice{};
+    const PartInfo picture = file ? file->part(depth.part) : picture_of_size(size_);
+    Camera camera = picture_.camera_asked(picture);
+    camera.fill_from(file ? camera_from_metadata(*file, depth.part) : camera_from_metadata(picture));
     if (!camera.projection || !camera.pose)
         throw RequestError(fmt::format("no {} in --camera, --vfov or the metadata of --frame{}{}",
                                        camera.projection ? "camera pose" : "field of view", camera.notes.empty() ? "" : ": ",
                                        camera.notes_text()));
-    loaded.camera_ = camera_of(camera, header.displayWindow());
-    loaded.format_ = format_of(file ? file->parts()[std::size_t(depth.part)].data_window : header.dataWindow(),
-                               header.displayWindow(), picture_);
+    loaded.camera_ = camera_of(camera, picture.display_window);
+    loaded.format_ = format_of(picture.data_window, picture.display_window, picture_);
     if (!depth.channel.empty()) {
-        loaded.depth_ = read_channel(*file, depth.part, depth.channel);
+        picture_.take_depth_scale(depth, *file);
+        loaded.depth_ = read_depth(*file, depth);
         picture_.depth_kind().convert(loaded.depth_);
     }
     return loaded;

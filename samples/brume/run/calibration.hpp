@@ -6,7 +6,8 @@
 
 namespace brume::tool {
 
-/// Where the measured rates of this context's device are kept: $XDG_CACHE_HOME/brume, or ~/.cache/brume. Empty without a home.
+/// Where the measured rates of this context's device are kept: $XDG_CACHE_HOME/brume, or ~/.cache/brume. Empty without a
+/// home.
 std::filesystem::path calibration_file(brume_context context);
 
 /// Gives the context the rates that are kept for its device, if there are any.

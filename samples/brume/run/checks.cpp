@@ -10,7 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "exr/narrow.hpp"
+#include "image/formats.hpp"
+#include "image/narrow.hpp"
 #include "run/inputs.hpp"
 #include "run/scene.hpp"
 #include "support/error.hpp"
@@ -76,7 +77,12 @@ void check_outputs(const SequenceOptions &options, const std::vector<FrameFile> 
         if (!seen.insert(error ? std::filesystem::absolute(place).lexically_normal() : real).second)
             throw RequestError(fmt::format("{}: two outputs would be written there", output.string()));
     }
-    check_ending("-o", options.output, ".exr");
+    const Format *format = format_of(options.output);
+    if (!format)
+        throw RequestError(fmt::format("-o {}: expected a name that ends in one of {}", options.output, known_endings()));
+    if (!options.fog.layers.empty() && !is_exr(*format))
+        throw RequestError(
+            fmt::format("-o {}: --layers go into an EXR file; expected a name that ends in .exr", options.output));
     if (!options.preview.empty())
         check_ending("--preview", options.preview, ".png");
 

@@ -48,7 +48,7 @@ DepthCount count_depth(const std::vector<float> &depth, const DepthKind &kind, d
     return count;
 }
 
-std::vector<std::string> depth_warnings(const DepthCount &count, const DepthKind &kind, double far, Imf::PixelType type)
+std::vector<std::string> depth_warnings(const DepthCount &count, const DepthKind &kind, double far, SampleType type)
 {
     std::vector<std::string> warnings;
     const bool distance =
@@ -65,7 +65,7 @@ std::vector<std::string> depth_warnings(const DepthCount &count, const DepthKind
     else if (20 * count.far >= 19 * count.pixels && count.far > 0)
         warnings.push_back(fmt::format("{} of {} pixels count as far (sky from {:g} on): is that depth, of this kind?",
                                        count.far, count.pixels, far));
-    if (distance && type == Imf::HALF && count.largest_half > 0 && far > 65504)
+    if (distance && type == SampleType::kHalf && count.largest_half > 0 && far > 65504)
         warnings.push_back(
             fmt::format("{} pixels have the depth 65504, the largest of a half: what is farther is stored so, "
                         "and --far 65504 makes it sky",

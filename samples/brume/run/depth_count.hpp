@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <ImfPixelType.h>
-
 #include "commands/options.hpp"
 
 namespace brume::tool {
@@ -23,6 +21,6 @@ struct DepthCount {
 DepthCount count_depth(const std::vector<float> &depth, const DepthKind &kind, double far);
 
 /// What a person should know of depth counted so; each starts with a number.
-std::vector<std::string> depth_warnings(const DepthCount &count, const DepthKind &kind, double far, Imf::PixelType type);
+std::vector<std::string> depth_warnings(const DepthCount &count, const DepthKind &kind, double far, SampleType type);
 
 }  // namespace brume::tool

@@ -17,8 +17,10 @@ namespace {
 /// A plan holds its images; a sequence with a moving data window meets a new format with every frame.
 constexpr std::size_t kMostPlans = 4;
 
+constexpr const char *kLightGroup = "light_group";
+
 /// As brume_quality.detail.
-double detail_of(const ExrFile &file, const ColorChoice &color)
+double detail_of(const ImageFile &file, const ColorChoice &color)
 {
     const PartInfo &part = file.parts()[color.part];
     Picture picture{0, 0, part.width(), part.height(), {}};
@@ -49,6 +51,7 @@ public:
             // Inputs are only read.
             images_.push_back(host_image(const_cast<float *>(input.pixels.data()), width, height, input.channels));
             layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
+            layers_.back().light = input.light;
         }
     }
     void give_to(brume_frame &frame) const
@@ -125,18 +128,29 @@ Fogger::Fogger(const FogOptions &options) : options_(options)
     output_layers_ = format_layers(outputs_);
     inputs_ = parse_inputs(context_.get(), options.inputs);
     load_calibration(context_.get());
+    take_scene(text);
+}
+
+void Fogger::change_scene(const std::string &text)
+{
+    plans_.clear();
+    take_scene({text, options_.scene, options_.set});
+}
+
+void Fogger::take_scene(const SceneText &text)
+{
     scene_ = make_scene(context_.get(), text);
     const brume_scene scene = scene_.get();
     brume_context_info context_info = BRUME_CONTEXT_INFO_INIT;
     check_request(context_.get(), brume_context_get_info(context_.get(), &context_info), "");
-    provenance_ = provenance_of(text, options, context_info.backend);
+    provenance_ = provenance_of(text, options_, context_info.backend);
     ask_for_quality();
-    scene_camera_ = CameraBlock::of_scene(text.text, options.scene);
-    check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options.scene);
+    scene_camera_ = CameraBlock::of_scene(text.text, options_.scene);
+    check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options_.scene);
     for (const LayerOutput &output : outputs_)
         if (output.of_light && output.light >= scene_info_.light_count)
             throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected the number of one, from 0",
-                                           output.name, options.scene, scene_info_.light_count));
+                                           output.name, options_.scene, scene_info_.light_count));
 }
 
 void Fogger::ask_for_quality()
@@ -155,7 +169,7 @@ void Fogger::ask_for_quality()
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
+void Fogger::expect(const ImageFile &file, const ColorChoice &color, const ImageFile &depth_file, const DepthChoice &depth,
                     const std::vector<OpenInput> &inputs, int number)
 {
     brume_quality quality = BRUME_QUALITY_INIT;
@@ -165,7 +179,7 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
         return;
     const PartInfo &part = depth_file.parts()[depth.part];
     Shot shot = shot_of(file, color, number);
-    shot.format = format_of(part.data_window, depth_file.header(depth.part).displayWindow(), options_.picture);
+    shot.format = format_of(part.data_window, depth_file.part(depth.part).display_window, options_.picture);
     brume_layer wanted = layer_named("transmittance", nullptr);
     shot.format.outputs = &wanted;
     shot.format.output_count = 1;
@@ -185,7 +199,7 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     if (planned != BRUME_OK || brume_plan_get_info(made, &info) != BRUME_OK || info.does_nothing ||
         (info.camera_needs & ~shot.camera.given))
         return;
-    std::vector<float> distances = read_channel(depth_file, depth.part, depth.channel);
+    std::vector<float> distances = read_depth(depth_file, depth);
     options_.picture.depth_kind().convert(distances);
     std::vector<float> color_rgb(distances.size() * 3), transmittance(distances.size() * 3);
     const int width = part.width(), height = part.height();
@@ -215,7 +229,7 @@ void Fogger::expect(const ExrFile &file, const ColorChoice &color, const ExrFile
     check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
 }
 
-Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color, int number) const
+Shot Fogger::shot_of(const ImageFile &file, const ColorChoice &color, int number) const
 {
     Shot shot = tool::shot_of(file, color, options_.picture, scene_camera_, number);
     shot.format.outputs = output_layers_.data();
@@ -223,9 +237,12 @@ Shot Fogger::shot_of(const ExrFile &file, const ColorChoice &color, int number) 
     return shot;
 }
 
-void Fogger::learn_roles(const ExrFile &file, const ColorChoice &color, int number)
+void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int number)
 {
-    const std::vector<std::string> roles = tool::known_roles(context_.get());
+    std::vector<std::string> roles = tool::known_roles(context_.get());
+    const std::vector<LightGroup> groups = scene_groups();
+    if (!groups.empty())
+        roles.push_back(kLightGroup);
     if (roles.empty())
         return;
     // Which effects run is the library's to say, so it is asked with all of the roles.
@@ -241,24 +258,41 @@ void Fogger::learn_roles(const ExrFile &file, const ColorChoice &color, int numb
     brume_plan_info info = BRUME_PLAN_INFO_INIT;
     check_request(context_.get(), brume_plan_get_info(made, &info), "plan");
     known_roles_.clear();
+    groups_.clear();
     for (const std::string &role : roles)
         for (std::uint32_t i = 0; i < info.entry_count; ++i) {
             brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
             check_request(context_.get(), brume_plan_get_entry(made, i, &entry), "plan");
             if (entry.runs && reads_layer(context_.get(), entry.effect, role)) {
-                known_roles_.push_back(role);
+                if (role == kLightGroup)
+                    groups_ = groups;
+                else
+                    known_roles_.push_back(role);
                 break;
             }
         }
 }
 
-std::vector<OpenInput> Fogger::open_inputs(const ExrFile &file, const ColorChoice &color, int number,
-                                           const ReadLimits &limits) const
+std::vector<LightGroup> Fogger::scene_groups() const
 {
-    return tool::open_inputs(file, color, number, inputs_, known_roles_, limits);
+    std::vector<LightGroup> groups;
+    for (std::uint32_t light = 0; light < scene_info_.light_count; ++light) {
+        std::string name(brume_scene_light_group(scene_.get(), light, nullptr, 0), '\0');
+        if (name.size() <= 1)
+            continue;
+        brume_scene_light_group(scene_.get(), light, name.data(), name.size());
+        groups.push_back({light, name.c_str()});
+    }
+    return groups;
 }
 
-brume_plan Fogger::plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+std::vector<OpenInput> Fogger::open_inputs(const ImageFile &file, const ColorChoice &color, int number,
+                                           const ReadLimits &limits) const
+{
+    return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, limits);
+}
+
+brume_plan Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
                             const std::vector<std::string> &roles, int number)
 {
     Shot shot = shot_of(file, color, number);
@@ -316,7 +350,8 @@ FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights,
 try {
     std::vector<std::string> roles;
     for (const InputLayer &input : frame.inputs)
-        roles.push_back(input.role);
+        if (std::find(roles.begin(), roles.end(), input.role) == roles.end())
+            roles.push_back(input.role);
     const brume_plan plan = plan_for(frame.file, frame.color, weights, roles, number);
     const Shot shot = shot_of(frame.file, frame.color, number);
     const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "commands/options.hpp"
-#include "exr/frame.hpp"
-#include "exr/resolve.hpp"
-#include "exr/write.hpp"
+#include "image/frame.hpp"
+#include "image/resolve.hpp"
+#include "image/write.hpp"
 #include "metrics/metrics.hpp"
 #include "run/inputs.hpp"
 #include "run/layers.hpp"
+#include "run/scene.hpp"
 #include "run/sdk.hpp"
 #include "run/shot.hpp"
 
@@ -47,20 +48,23 @@ class Fogger {
 public:
     explicit Fogger(const FogOptions &options);
 
+    /// Another text in the place of the scene file's, with files relative to that. Throws RequestError.
+    void change_scene(const std::string &text);
+
     /// Learns from a frame what predictions of quality depend on, where quality is asked for and the scene does not say.
-    void expect(const ExrFile &file, const ColorChoice &color, const ExrFile &depth_file, const DepthChoice &depth,
+    void expect(const ImageFile &file, const ColorChoice &color, const ImageFile &depth_file, const DepthChoice &depth,
                 const std::vector<OpenInput> &inputs, int number);
 
     /// Finds the roles that effects of the scene read and that layers of known names are taken for.
-    void learn_roles(const ExrFile &file, const ColorChoice &color, int number);
+    void learn_roles(const ImageFile &file, const ColorChoice &color, int number);
 
     /// The layers that the library is to be given with such a picture. May be called from any thread.
-    std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int number,
+    std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int number,
                                        const ReadLimits &limits) const;
 
     /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
     /// that nobody gave.
-    brume_plan plan_for(const ExrFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+    brume_plan plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
                         const std::vector<std::string> &roles, int number);
 
     /// In place. Throws FrameError.
@@ -70,10 +74,12 @@ public:
     /// What the frames' attribute says of it.
     const std::string &provenance() const { return provenance_; }
     const brume_scene_info &scene_info() const { return scene_info_; }
-    Shot shot_of(const ExrFile &file, const ColorChoice &color, int number) const;
+    Shot shot_of(const ImageFile &file, const ColorChoice &color, int number) const;
 
 private:
+    void take_scene(const SceneText &text);
     void ask_for_quality();
+    std::vector<LightGroup> scene_groups() const;
     void take_uncovered_light(brume_plan plan, brume_frame call, Frame &frame) const;
 
     FogOptions options_;
@@ -86,6 +92,7 @@ private:
     std::vector<brume_layer> output_layers_;  ///< of `outputs_`, as formats have them
     std::vector<InputRequest> inputs_;
     std::vector<std::string> known_roles_;
+    std::vector<LightGroup> groups_;
     std::map<std::pair<std::vector<double>, std::vector<std::string>>, PlanHandle> plans_;
 };
 

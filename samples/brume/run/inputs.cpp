@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "exr/narrow.hpp"
+#include "image/formats.hpp"
 #include "frames/pattern.hpp"
 #include "run/layers.hpp"
 #include "support/error.hpp"
@@ -14,16 +14,14 @@
 namespace brume::tool {
 namespace {
 
-constexpr std::string_view kExrThenLayer = ".exr:";
-
 /// Where its pixels would not be the picture's.
-void check_display(const ExrFile &file, const ColorChoice &color, const OpenInput &input)
+void check_display(const ImageFile &file, const ColorChoice &color, const OpenInput &input)
 {
     if (!input.file)
         return;
-    const Imath::Box2i &display = file.header(color.part).displayWindow();
-    const Imath::Box2i &other = input.file->header(input.choice.part).displayWindow();
-    const auto text = [](const Imath::Box2i &w) {
+    const Window &display = file.part(color.part).display_window;
+    const Window &other = input.file->part(input.choice.part).display_window;
+    const auto text = [](const Window &w) {
         return fmt::format("{} x {} at ({}, {})", w.max.x - w.min.x + 1, w.max.y - w.min.y + 1, w.min.x, w.min.y);
     };
     if (other != display)
@@ -38,22 +36,21 @@ InputRequest parse_input(const std::string &text)
 {
     const auto equals = text.find('=');
     InputRequest request{text.substr(0, equals), "", equals == std::string::npos ? "" : text.substr(equals + 1)};
-    if (const auto colon = lower(request.layer).find(kExrThenLayer); colon != std::string::npos) {
-        request.file = request.layer.substr(0, colon + kExrThenLayer.size() - 1);
-        request.layer = request.layer.substr(colon + kExrThenLayer.size());
+    if (const auto end = end_of_file_name(request.layer); end < request.layer.size()) {
+        request.file = request.layer.substr(0, end);
+        request.layer = request.layer.substr(end + 1);
     }
     if (request.role.empty() || request.layer.empty())
-        throw RequestError(fmt::format("--input '{}': expected ROLE=LAYER or ROLE=FILE.exr:LAYER", text));
+        throw RequestError(fmt::format("--input '{}': expected ROLE=LAYER or ROLE=FILE:LAYER", text));
     return request;
 }
 
 void add_input_option(CLI::App &command, std::vector<std::string> &inputs)
 {
     command
-        .add_option(
-            "--input", inputs,
-            "Give a layer to what reads the role, see `brume effects`; ROLE=FILE.exr:LAYER from a file of its own; may "
-            "be repeated")
+        .add_option("--input", inputs,
+                    "Give a layer to what reads the role, see `brume effects`; ROLE=FILE:LAYER from a file of its own; may "
+                    "be repeated")
         ->type_name("ROLE=LAYER")
         ->allow_extra_args(false);
 }
@@ -86,9 +83,9 @@ std::vector<std::string> known_roles(brume_context context)
     return roles;
 }
 
-std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int frame,
+std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int frame,
                                    const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
-                                   const ReadLimits &limits)
+                                   const std::vector<LightGroup> &groups, const ReadLimits &limits)
 {
     std::vector<OpenInput> inputs;
     for (const InputRequest &request : asked) {
@@ -100,7 +97,7 @@ std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color
         if (std::error_code error; !pattern.is_sequence() && !std::filesystem::exists(request.file, error))
             throw RequestError(
                 fmt::format("--input {}={}: {}", request.role, request.file, error ? error.message() : "no such file"));
-        ExrFile own(pattern.existing_at(frame), limits);
+        ImageFile own(pattern.existing_at(frame), limits);
         InputChoice choice = resolve_input(own, request.role, request.layer, nullptr);
         inputs.push_back({std::move(choice), std::move(own)});
         check_display(file, color, inputs.back());
@@ -109,6 +106,10 @@ std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color
         if (std::none_of(asked.begin(), asked.end(), [&](const InputRequest &r) { return r.role == role; }))
             if (auto choice = find_known_input(file, role, color))
                 inputs.push_back({std::move(*choice), std::nullopt});
+    for (const LightGroup &group : groups) {
+        InputChoice choice = resolve_group(file, group.layer, group.light, color);
+        inputs.push_back({std::move(choice), std::nullopt});
+    }
     return inputs;
 }
 
@@ -116,8 +117,14 @@ std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs)
 {
     std::vector<std::string> roles;
     for (const OpenInput &input : inputs)
-        roles.push_back(input.choice.role);
+        if (std::find(roles.begin(), roles.end(), input.choice.role) == roles.end())
+            roles.push_back(input.choice.role);
     return roles;
+}
+
+std::string name_of(const OpenInput &input)
+{
+    return input.choice.role + (input.choice.light ? fmt::format("{}", *input.choice.light) : "");
 }
 
 std::string description(const OpenInput &input)

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "exr/file.hpp"
-#include "exr/resolve_input.hpp"
+#include "image/file.hpp"
+#include "image/resolve_input.hpp"
 #include "run/sdk.hpp"
 
 namespace CLI {
@@ -30,19 +30,29 @@ std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<
 /// Roles that some effect which is loaded reads, and that layers are taken for without being asked for.
 std::vector<std::string> known_roles(brume_context context);
 
+/// The layer of one light's own share of the picture.
+struct LightGroup {
+    std::uint32_t light;
+    std::string layer;
+};
+
 /// A layer to be given to the library, and the file it is in where that is not the picture's.
 struct OpenInput {
     InputChoice choice;
-    std::optional<ExrFile> file;
+    std::optional<ImageFile> file;
 };
 
-/// What was asked for, and of `known` roles what the picture's file has. Throws FrameError for files that cannot be read,
-/// RequestError where layers cannot be resolved.
-std::vector<OpenInput> open_inputs(const ExrFile &file, const ColorChoice &color, int frame,
+/// What was asked for, the scene's groups, and of `known` roles what the picture's file has. Throws FrameError for files
+/// that cannot be read, RequestError where layers cannot be resolved.
+std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int frame,
                                    const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
-                                   const ReadLimits &limits);
+                                   const std::vector<LightGroup> &groups, const ReadLimits &limits);
 
+/// Each once.
 std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs);
+
+/// Its role, with the light whose it is.
+std::string name_of(const OpenInput &input);
 
 /// "FILE:CHANNELS: reason" of one of them.
 std::string description(const OpenInput &input);

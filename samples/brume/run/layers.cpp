@@ -14,16 +14,16 @@ namespace {
 
 struct KnownOutput {
     std::string_view layer, name;
-    Imf::PixelType type;
+    SampleType type;
 };
 
 // Optical depth runs to 1e30 for sky in an endless medium, far past half; errors may be smaller than halves are. What
 // strangers' layers hold is not known, so they are floats too.
-constexpr KnownOutput kKnownOutputs[] = {{"transmittance", "transmittance", Imf::HALF},
-                                         {"scattered", "scattered", Imf::HALF},
-                                         {"blur_radius", "blur_radius", Imf::HALF},
-                                         {"airlight", "airlight", Imf::HALF},
-                                         {"light_airlight", "light", Imf::HALF}};
+constexpr KnownOutput kKnownOutputs[] = {{"transmittance", "transmittance", SampleType::kHalf},
+                                         {"scattered", "scattered", SampleType::kHalf},
+                                         {"blur_radius", "blur_radius", SampleType::kHalf},
+                                         {"airlight", "airlight", SampleType::kHalf},
+                                         {"light_airlight", "light", SampleType::kHalf}};
 
 LayerOutput output_of(const brume_layer_info &info)
 {

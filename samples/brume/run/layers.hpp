@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <ImfPixelType.h>
-
 #include "run/sdk.hpp"
 
 namespace brume::tool {
@@ -21,7 +19,7 @@ struct LayerOutput {
     std::string name;   ///< as the file has it
     std::string layer;  ///< as the library has it
     int channels = 3;
-    Imf::PixelType type = Imf::FLOAT;
+    SampleType type = SampleType::kFloat;
     bool of_light = false;
     std::uint32_t light = 0;
 };

@@ -11,15 +11,16 @@
 #include <set>
 #include <thread>
 
-#include <ImfThreading.h>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 #include <unistd.h>
 
 #include "colour/png.hpp"
+#include "image/library.hpp"
 #include "run/checks.hpp"
 #include "run/interrupt.hpp"
+#include "run/picture_io.hpp"
 #include "run/progress.hpp"
 #include "support/error.hpp"
 
@@ -41,34 +42,21 @@ struct Job {
 };
 using JobPtr = std::shared_ptr<Job>;
 
-/// A grey picture travels as RGB; what comes back is its luminance.
-void merge_luminance(Frame &frame, const LuminanceWeights &w)
+ReadLimits limits_of(const SequenceOptions &options)
 {
-    for (std::size_t i = 0; i < frame.pixels.size(); i += std::size_t(frame.channels)) {
-        float *p = &frame.pixels[i];
-        if (p[0] != p[1] || p[0] != p[2])
-            p[0] = float(w[0] * p[0] + w[1] * p[1] + w[2] * p[2]);
-    }
-}
-
-std::uint64_t count_not_finite(const Frame &frame)
-{
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < frame.pixels.size(); i += std::size_t(frame.channels)) {
-        const float *p = &frame.pixels[i];
-        count += !std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]);
-    }
-    return count;
+    ReadLimits limits;
+    if (options.memory)
+        limits.part_bytes = options.memory << 20;
+    return limits;
 }
 
 class Sequence {
 public:
     Sequence(const SequenceOptions &options, std::vector<FrameFile> files)
-        : options_(options), colors_(options.spaces), fogger_(options.fog), preview_(options.preview),
-          progress_(0, options.quiet)
+        : options_(options), limits_(limits_of(options)),
+          io_({options.fog.picture, options.spaces, options.output, options.output_type, limits_}, files),
+          fogger_(options.fog), preview_(options.preview), progress_(0, options.quiet)
     {
-        if (options.memory)
-            limits_.part_bytes = options.memory << 20;
         for (FrameFile &f : files) {
             FrameStats stats;
             std::error_code error;
@@ -84,8 +72,8 @@ public:
     int run()
     {
         preflight();
-        if (!colors_.warning().empty())
-            progress_.note("warning: " + colors_.warning());
+        if (!io_.colors().warning().empty())
+            progress_.note("warning: " + io_.colors().warning());
         if (options_.frames.empty())
             for (const std::string &note : sequence_notes(FilePattern(options_.input)))
                 progress_.note(note);
@@ -114,7 +102,7 @@ private:
                 fogger_.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs,
                                number);
                 const brume_plan plan =
-                    fogger_.plan_for(open.file, open.color, colors_.luminance_weights(open.file.header(open.color.part)),
+                    fogger_.plan_for(open.file, open.color, io_.colors().luminance_weights(open.file.part(open.color.part)),
                                      roles_of(inputs), number);
                 // Once as read, once more as it is written, and the added layers as floats.
                 bytes = 2 * frame_bytes(open.file, open.color);
@@ -137,7 +125,7 @@ private:
             progress_.note(
                 fmt::format("warning: one frame takes about {} MiB, more than the {} MiB of --mem; going on one at a time",
                             (bytes + fogging) >> 20, limits_.part_bytes >> 20));
-        Imf::setGlobalThreadCount(int(threads));
+        set_image_threads(int(threads));
     }
 
     void make_folders()
@@ -209,49 +197,7 @@ private:
     void read(Job &job)
     {
         const auto start = std::chrono::steady_clock::now();
-        OpenFrame open = open_frame(job.stats.files, options_.fog.picture, limits_);
-        const ExrFile *depth_file = open.depth_file ? &*open.depth_file : nullptr;
-        const DepthSource depth{depth_file, open.depth};
-        job.stats.color = fmt::format("{}: {}", open.color.label(), open.color.reason);
-        job.stats.depth = fmt::format("{}{}: {}", depth_file ? depth_file->path().string() + ":" : "", open.depth.channel,
-                                      open.depth.reason);
-        const PartInfo &depth_part = (depth_file ? *depth_file : open.file).parts()[open.depth.part];
-        if (is_lossy_for(depth_part.compression, *depth_part.find(open.depth.channel)))
-            job.stats.warnings.push_back(
-                fmt::format("depth '{}' is stored with a lossy compression: edges may show it", open.depth.channel));
-        const DepthKind kind = options_.fog.picture.depth_kind();
-        const Imf::PixelType depth_type = depth_part.find(open.depth.channel)->type;
-        for (const std::string &view : other_views(open.file, open.color))
-            job.stats.warnings.push_back(
-                fmt::format("the picture's view '{}' stays without fog (--view {} fogs that one)", view, view));
-        job.weights = colors_.luminance_weights(open.file.header(open.color.part), &job.stats.warnings);
-        const std::vector<OpenInput> inputs = fogger_.open_inputs(open.file, open.color, job.stats.files.frame, limits_);
-        job.frame.emplace(read_frame(std::move(open.file), open.color, &depth));
-        Frame &frame = *job.frame;
-        for (const OpenInput &input : inputs) {
-            const bool with_color = !input.file && input.choice.part == frame.color.part;
-            frame.inputs.push_back(read_input(input.file ? *input.file : frame.file, input.choice, frame.part(),
-                                              with_color ? &frame.planes : nullptr));
-            job.stats.inputs.emplace_back(input.choice.role, description(input));
-            if (frame.inputs.back().outside > 0)
-                job.stats.warnings.push_back(fmt::format(
-                    "{} pixels are outside the data window of the input {} and count as {}", frame.inputs.back().outside,
-                    input.choice.role, input.choice.role == "transmittance" ? 1 : 0));
-        }
-        job.stats.pixels = std::uint64_t(frame.width) * std::uint64_t(frame.height);
-        job.stats.not_finite_pixels = count_not_finite(frame);
-        job.stats.outside_depth_window = frame.outside_depth_window;
-        job.stats.depth_count = count_depth(frame.depth, kind, options_.fog.picture.far);
-        kind.convert(frame.depth);
-        for (std::string &warning : depth_warnings(job.stats.depth_count, kind, options_.fog.picture.far, depth_type))
-            job.stats.warnings.push_back(std::move(warning));
-        if (frame.outside_depth_window > 0)
-            job.stats.warnings.push_back(
-                fmt::format("{} pixels lie outside the depth's data window and count as far", frame.outside_depth_window));
-        if (job.stats.not_finite_pixels > 0)
-            job.stats.warnings.push_back(
-                fmt::format("{} pixels have a colour that is not finite (NaN or infinite)", job.stats.not_finite_pixels));
-        colors_.to_working(frame.pixels.data(), job.stats.pixels, frame.channels);
+        job.frame.emplace(io_.read(fogger_, job.weights, job.stats));
         job.stats.read_ms = ms_since(start);
     }
 
@@ -278,21 +224,10 @@ private:
         const bool previewed = !options_.preview.empty() && (preview_.is_sequence() || job.index == to_do_.front());
         std::vector<std::uint8_t> preview;
         if (previewed)
-            preview = colors_.to_display(frame.pixels.data(), job.stats.pixels, frame.channels);
-        if (frame.color.luminance)
-            merge_luminance(frame, job.weights);
-        colors_.from_working(frame.pixels.data(), job.stats.pixels, frame.channels);
-        WriteOptions how;
-        how.primaries_changed = colors_.changes_space();
-        how.chromaticities = colors_.new_chromaticities();
-        how.untouched = job.stats.fog.nothing_to_do && job.layers.empty() && !colors_.converts();
-        if (options_.provenance)
-            how.provenance = fogger_.provenance();
-        const WriteReport report = write_frame(frame, job.layers, job.stats.files.output, how);
+            preview = io_.colors().to_display(frame.pixels.data(), job.stats.pixels, frame.channels);
+        io_.write(frame, job.layers, job.weights, options_.provenance ? fogger_.provenance() : "", job.stats);
         if (previewed)
             write_png(preview_.at(job.stats.files.frame), frame.width, frame.height, preview);
-        job.stats.clamped_values = report.clamped;
-        job.stats.warnings.insert(job.stats.warnings.end(), report.warnings.begin(), report.warnings.end());
         job.frame.reset();
         job.layers.clear();
         job.stats.outcome = Outcome::kDone;
@@ -325,7 +260,7 @@ private:
         run_.backend = backend_name(info.backend);
         run_.device = info.device ? info.device : "";
         run_.scene = options_.fog.scene;
-        run_.colors = colors_.description();
+        run_.colors = io_.colors().description();
         if (!options_.stats.empty())
             write_stats(options_.stats, run_);
 
@@ -339,11 +274,11 @@ private:
     }
 
     const SequenceOptions &options_;
-    ColorManager colors_;
+    const ReadLimits limits_;
+    const PictureIo io_;
     Fogger fogger_;
     FilePattern preview_;
     Progress progress_;
-    ReadLimits limits_;
     RunStats run_;
     std::vector<std::size_t> to_do_;
     std::size_t next_ = 0;

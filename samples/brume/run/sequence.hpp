@@ -15,6 +15,7 @@ struct SequenceOptions {
     FogOptions fog;
     ColorRequest spaces;
     std::string input, output, frames, preview, stats;
+    std::string output_type;   ///< of channels; empty: what loses least
     int jobs = 0;              ///< 0: as many as there are threads
     std::uint64_t memory = 0;  ///< [MiB]; 0: half of the machine's
     bool skip_existing = false, keep_going = false, quiet = false, provenance = true;
@@ -22,9 +23,9 @@ struct SequenceOptions {
 
 /// One picture with its depth, opened and resolved, pixels not yet read.
 struct OpenFrame {
-    ExrFile file;
+    ImageFile file;
     ColorChoice color;
-    std::optional<ExrFile> depth_file;  ///< where depth has a file of its own
+    std::optional<ImageFile> depth_file;  ///< where depth has a file of its own
     DepthChoice depth;
 };
 

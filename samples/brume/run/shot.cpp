@@ -6,7 +6,7 @@
 
 namespace brume::tool {
 
-brume_format format_of(const Imath::Box2i &data, const Imath::Box2i &display, const PictureOptions &options)
+brume_format format_of(const Window &data, const Window &display, const PictureOptions &options)
 {
     brume_format format = BRUME_FORMAT_INIT;
     format.width = data.max.x - data.min.x + 1;
@@ -31,7 +31,7 @@ brume_format format_of(const Imath::Box2i &data, const Imath::Box2i &display, co
     return format;
 }
 
-brume_camera camera_of(const Camera &camera, const Imath::Box2i &display)
+brume_camera camera_of(const Camera &camera, const Window &display)
 {
     brume_camera result = BRUME_CAMERA_INIT;
     if (camera.projection) {
@@ -48,10 +48,10 @@ brume_camera camera_of(const Camera &camera, const Imath::Box2i &display)
     return result;
 }
 
-Camera camera_of_picture(const ExrFile &file, const ColorChoice &color, const PictureOptions &options,
+Camera camera_of_picture(const ImageFile &file, const ColorChoice &color, const PictureOptions &options,
                          const CameraBlock &scene, int frame)
 {
-    const Imf::Header &picture = file.header(color.part);
+    const PartInfo &picture = file.part(color.part);
     Camera camera = options.camera_asked(picture, scene, color.view, frame);
     camera.fill_from(scene.at(frame, picture, "scene file"));
     if (!camera.projection || !camera.pose)
@@ -59,11 +59,11 @@ Camera camera_of_picture(const ExrFile &file, const ColorChoice &color, const Pi
     return camera;
 }
 
-Shot shot_of(const ExrFile &file, const ColorChoice &color, const PictureOptions &options, const CameraBlock &scene,
+Shot shot_of(const ImageFile &file, const ColorChoice &color, const PictureOptions &options, const CameraBlock &scene,
              int frame)
 {
     Shot shot;
-    const Imath::Box2i &display = file.header(color.part).displayWindow();
+    const Window &display = file.part(color.part).display_window;
     shot.format = format_of(file.parts()[std::size_t(color.part)].data_window, display, options);
     const Camera camera = camera_of_picture(file, color, options, scene, frame);
     shot.camera_source = fmt::format("field of view: {}; pose: {}", camera.projection ? camera.projection_source : "none",

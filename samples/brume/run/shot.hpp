@@ -6,15 +6,15 @@
 #include <brume/brume.h>
 
 #include "commands/options.hpp"
-#include "exr/resolve.hpp"
+#include "image/resolve.hpp"
 
 namespace brume::tool {
 
 /// A picture as the library is told of it: its windows, and what its depth means. Extra outputs are left to the caller.
-brume_format format_of(const Imath::Box2i &data, const Imath::Box2i &display, const PictureOptions &options);
+brume_format format_of(const Window &data, const Window &display, const PictureOptions &options);
 
 /// What of the camera is known.
-brume_camera camera_of(const Camera &camera, const Imath::Box2i &display);
+brume_camera camera_of(const Camera &camera, const Window &display);
 
 /// What of one picture the plan and the camera depend on.
 struct Shot {
@@ -25,10 +25,10 @@ struct Shot {
 };
 
 /// Field of view and pose, each from the first that has it: the options, the scene, the file's metadata.
-Camera camera_of_picture(const ExrFile &file, const ColorChoice &color, const PictureOptions &options,
+Camera camera_of_picture(const ImageFile &file, const ColorChoice &color, const PictureOptions &options,
                          const CameraBlock &scene, int frame);
 
-Shot shot_of(const ExrFile &file, const ColorChoice &color, const PictureOptions &options, const CameraBlock &scene,
+Shot shot_of(const ImageFile &file, const ColorChoice &color, const PictureOptions &options, const CameraBlock &scene,
              int frame);
 
 }  // namespace brume::tool

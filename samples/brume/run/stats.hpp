@@ -17,7 +17,7 @@ struct FrameStats {
     FrameFile files;
     Outcome outcome = Outcome::kNotTried;
     std::string error;
-    std::string color, depth;  ///< what was resolved, and why
+    std::string color, depth;                                 ///< what was resolved, and why
     std::vector<std::pair<std::string, std::string>> inputs;  ///< role, and what was resolved
     FogReport fog;
     DepthCount depth_count;

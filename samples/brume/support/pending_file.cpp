@@ -113,11 +113,15 @@ PendingFile::PendingFile(std::filesystem::path final_path)
     final_ = place_of(final_path, why_not);
     if (!why_not.empty())
         throw FrameError(fmt::format("{}: {} (expected a file's name)", final_path.string(), why_not));
-    // Not made of the final name, which may be as long as a name can be.
-    const std::string name = fmt::format(".brume-{}-{}.partial", ::getpid(), serial++);
-    temporary_ = final_.parent_path() / name;
     const Making making;
-    const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    // Names of other machines, and of processes that were killed, may be the same: in containers process numbers are.
+    int descriptor = -1;
+    for (int tries = 0; descriptor < 0 && (tries == 0 || (errno == EEXIST && tries < 10000)); ++tries) {
+        // Not made of the final name, which may be as long as a name can be.
+        const std::string name = fmt::format(".brume-{}-{}.partial", ::getpid(), serial++);
+        temporary_ = final_.parent_path() / name;
+        descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    }
     if (descriptor < 0)
         throw FrameError(fmt::format("{}: cannot be written: {}", final_.string(), std::strerror(errno)));
     ::close(descriptor);

@@ -302,7 +302,11 @@ BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_med
 #define BRUME_SHADOW_PERSPECTIVE 1u  /* of POINT and SPOT */
 #define BRUME_SHADOW_ORTHOGRAPHIC 2u /* of DIRECTIONAL */
 
-/* A light for single scattering (effect airlight). Lights do not light surfaces: the image shows those as they are. */
+#define BRUME_SURFACES_LIT 0u
+#define BRUME_SURFACES_UNLIT 1u
+
+/* A light of the medium (effect airlight). The image shows surfaces as lights light them; what the medium changes of that is effect
+   surface's. */
 typedef struct brume_light {
   uint32_t struct_size;
   uint32_t type;        /* BRUME_LIGHT_... */
@@ -324,10 +328,13 @@ typedef struct brume_light {
   double shadow_extent;       /* PERSPECTIVE: of the map's height [rad], 0 < extent < pi; ORTHOGRAPHIC: width of the map, in scene
                                  units, > 0 */
   double shadow_to_world[16]; /* as brume_camera.camera_to_world, of the map's camera */
+
+  uint32_t surfaces; /* BRUME_SURFACES_LIT (default) or _UNLIT: nothing of what surfaces show is this light's */
+  uint32_t reserved;
 } brume_light;
 #define BRUME_LIGHT_INIT {(uint32_t)sizeof(brume_light), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 1.0, 1.0}, \
                           0.0, 0.7853981633974483, 0.1, 0.0, BRUME_SHADOW_NONE, 0u, 0.0, \
-                          {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}}
+                          {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, 0u, 0u}
 BRUME_API void brume_light_init(brume_light *light, size_t size);
 
 #define BRUME_MAX_LIGHTS 4096u
@@ -347,6 +354,10 @@ BRUME_API size_t brume_scene_environment_file(brume_scene scene, char *buffer, s
 /* The shadow map that the scene's text names for a light, which the library does not read; "" if none. Copied as brume_message
    does. Planning such a scene fails unless the format's inputs have the layer "shadow". */
 BRUME_API size_t brume_scene_light_shadow_file(brume_scene scene, uint32_t light, char *buffer, size_t capacity);
+
+/* The layer that the scene's text names for a light's own share of the picture, which frames bring as the layer "light_group" of
+   this light; "" if none. Copied as brume_message does. */
+BRUME_API size_t brume_scene_light_group(brume_scene scene, uint32_t light, char *buffer, size_t capacity);
 
 #define BRUME_CAMERA_FIELD_OF_VIEW 1u /* vertical_fov, pixel_aspect and center are given */
 #define BRUME_CAMERA_POSE 2u          /* camera_to_world is given */

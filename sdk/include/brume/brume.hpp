@@ -225,6 +225,11 @@ public:
         return detail::copied_text(
             [&](char *to, std::size_t size) { return brume_scene_light_shadow_file(get(), light, to, size); });
     }
+    std::string light_group(std::uint32_t light) const
+    {
+        return detail::copied_text(
+            [&](char *to, std::size_t size) { return brume_scene_light_group(get(), light, to, size); });
+    }
     brume_scene_info info() const
     {
         brume_scene_info info = BRUME_SCENE_INFO_INIT;

@@ -99,7 +99,8 @@ typedef struct brume_plugin_light {
   float cos_inner;    /* SPOT: of the half angle where it begins to fall off, >= cos_outer */
   float type;         /* BRUME_LIGHT_... */
   float distance;     /* DIRECTIONAL: [m] of the constant terms that its light has come through */
-  float reserved[2];
+  float surfaces;     /* BRUME_SURFACES_... */
+  float reserved;
 
   /* Its shadow map (brume_light.shadow_kind): these 16 floats are four texels of product "light_shadows". */
   float shadow_rows[3][4]; /* a point of camera space [m], 1 appended, times these is it in the space of the map's camera */
@@ -340,6 +341,8 @@ typedef struct brume_services {
 #define BRUME_WANTED_NEVER 0u      /* runs only in scenes that name it */
 #define BRUME_WANTED_WITH_MEDIUM 1u /* also in scenes that have a medium and name no effects */
 #define BRUME_WANTED_WITH_LIGHTS 2u /* also in scenes that have a medium and lights or an environment, and name no effects */
+#define BRUME_WANTED_WITH_LAYERS 3u /* also in scenes that have a medium and lights, and name no effects, where frames bring a layer
+                                       that the effect reads */
 
 typedef struct brume_effect {
   uint32_t struct_size;
@@ -379,6 +382,11 @@ typedef struct brume_effect {
      with it, as brume_quality.max_error counts; 0: the effect's reference. Returns 1, or 0 from the first index that is none. */
   uint32_t (*offer)(const brume_services *services, brume_host host, const brume_plugin_request *request, uint32_t index,
                     double *parameters, double *error);
+
+  /* NULL, or what choices that the scene decides come to: changes `parameters`, a copy of the request's, before any effect
+     plans; plan and makes_with then get these. Of the services only made() and fail() may be called, and made() takes it that all
+     effects run. */
+  brume_status (*settle)(const brume_services *services, brume_host host, const brume_plugin_request *request, double *parameters);
 } brume_effect;
 
 typedef const brume_effect *(*brume_plugin_effect_function)(uint32_t host_abi);

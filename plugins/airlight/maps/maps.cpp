@@ -1,0 +1,404 @@
+#include "maps/maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "maps/passes.h"
+#include "maps/sizes.h"
+#include "maps/slices.h"
+#include "settings.h"
+#include "state.h"
+#include "uploads.h"
+
+namespace airlight {
+
+std::string_view pass_text(std::string_view name);
+
+namespace {
+
+using namespace brume_passes;
+using brume::maths_float::GridSettings;
+using brume::maths_float::ivec2;
+using maps::Constants;
+
+constexpr uint64_t most_map_bytes = uint64_t(64) << 20;
+constexpr int widest = 8192;  // of the grid's images
+
+constexpr brume_slot attenuation_slots[] = {fetch("gaussians"),          fetch("cells"),  fetch("cell_gaussians"), fetch("shadow_origins"),
+                                            fetch("attenuation_frames"), fetch("lights"), write("result")};
+static_assert(std::size(attenuation_slots) == maps::attenuation::slot_count);
+
+constexpr brume_slot density_slots[] = {fetch("gaussians"), fetch("tiles"), fetch("tile_gaussians"), fetch("slices"), write("result")};
+static_assert(std::size(density_slots) == maps::density::slot_count);
+
+constexpr brume_slot lights_slots[] = {fetch("attenuation"), fetch("attenuation_frames"), fetch("lights"), fetch("slices"),
+                                       write("result")};
+static_assert(std::size(lights_slots) == maps::lights::slot_count);
+
+constexpr brume_slot gather_slots[] = {fetch("depth"),         fetch("gaussian_density"),
+                                       fetch("slices"),        linear("grid_density"),
+                                       linear("grid_lights"),  fetch("lights"),
+                                       fetch("environment"),   fetch("environment_table"),
+                                       fetch("surroundings"),
+                                       fetch("light_shadows"), fetch("shadow_0"),
+                                       fetch("shadow_1"),      fetch("shadow_2"),
+                                       fetch("shadow_3"),      fetch("previous"),
+                                       fetch("previous_error"), write("radiance"),
+                                       write("error"),         write("distances")};
+static_assert(std::size(gather_slots) == maps::gather::slot_count);
+
+constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, grid, size),
+                                              BRUME_CONSTANT_OF(Constants, grid, columns),
+                                              BRUME_CONSTANT_OF(Constants, grid, rows),
+                                              BRUME_CONSTANT_OF(Constants, grid, cell),
+                                              BRUME_CONSTANT_OF(Constants, grid, slices),
+                                              BRUME_CONSTANT_OF(Constants, grid, across),
+                                              BRUME_CONSTANT_OF(Constants, grid, side),
+                                              BRUME_CONSTANT_OF(Constants, grid, nodes),
+                                              BRUME_CONSTANT_OF(Constants, grid, mapped),
+                                              BRUME_CONSTANT_OF(Constants, grid, gaussians),
+                                              BRUME_CONSTANT_OF(Constants, grid, tinted),
+                                              BRUME_CONSTANT_OF(Constants, grid, grey),
+                                              BRUME_CONSTANT_OF(Constants, grid, angle),
+                                              BRUME_CONSTANT_OF(Constants, grid, depth),
+                                              BRUME_CONSTANT_OF(Constants, grid, doubt),
+                                              BRUME_AIRLIGHT_SETTINGS(Constants),
+                                              BRUME_CONSTANT(Constants, light_range),
+                                              BRUME_CONSTANT(Constants, reduction),
+                                              BRUME_CONSTANT(Constants, first_row)};
+
+template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
+{
+    brume_pass_desc desc = described(name, slots, constants_table, sizeof(Constants));
+    desc.grain = grain;
+    return desc;
+}
+
+bool is_tinted(const brume_plugin_scene &scene)
+{
+    return !scene.gaussians || std::any_of(scene.gaussians, scene.gaussians + scene.gaussian_count, [](const brume_plugin_gaussian &g) {
+        return g.color[0] != 1 || g.color[1] != 1 || g.color[2] != 1;
+    });
+}
+
+int corners(int size, int cell)
+{
+    return (size + cell - 1) / cell + 1;
+}
+
+maps::Sizes sizes_for(const brume_plugin_request &request, const State &state)
+{
+    const Parameters &p = state.parameters;
+    return maps::sizes_of(*request.scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, is_tinted(*request.scene),
+                          maps::fineness_of(p.max_error), uint64_t(p.memory * 1e6));
+}
+
+ivec2 grid_size(const GridSettings &s)
+{
+    return ivec2(s.across * s.columns, (s.slices + s.across) / s.across * s.rows);
+}
+
+brume_status create_map_passes(const brume_services &services, brume_host host, State &state)
+{
+    Maps &m = state.maps;
+    const maps::Rows &rows = maps::rows_of_this_machine();
+    if (brume_status s = create(services, host, pass("maps", attenuation_slots, 4), "airlight_map_attenuation.comp",
+                                pass_text("airlight_map_attenuation.comp"), "", rows.attenuation, m.attenuation_pass))
+        return s;
+    if (brume_status s = create(services, host, pass("grid", density_slots, 1), "airlight_map_density.comp",
+                                pass_text("airlight_map_density.comp"), define("TINTED", m.settings.tinted), rows.density,
+                                m.density_pass))
+        return s;
+    if (brume_status s = create(services, host, pass("grid", lights_slots, 16), "airlight_map_lights.comp",
+                                pass_text("airlight_map_lights.comp"), "", rows.lights, m.lights_pass))
+        return s;
+    return create(services, host, pass("gather", gather_slots, 4), "airlight_map_gather.comp",
+                  pass_text("airlight_map_gather.comp"), define("ESTIMATE", state.error != nullptr), rows.gather, m.gather_pass);
+}
+
+}  // namespace
+
+bool maps_suit(const brume_plugin_request &request, const State &state)
+{
+    return request.scene->gaussians && sizes_for(request, state).fine;
+}
+
+double mapped_operations(const brume_plugin_request &request, const State &state)
+{
+    const maps::Sizes sizes = sizes_for(request, state);
+    // Orders beyond the first go pixel by pixel.
+    const double lights = request.scene->light_count * (state.parameters.orders == Orders::all ? 20 : 1), gaussians = request.scene->gaussian_count,
+                 pixels = double(state.width) * state.height / (state.parameters.reduction * state.parameters.reduction),
+                 side = maps::fineness_of(state.parameters.max_error).side, of_list = 40 * std::sqrt(1 + 0.1 * gaussians),
+                 points = double(corners(state.width, sizes.cell)) * corners(state.height, sizes.cell);
+    return pixels * sizes.slices * (8 + 6 * lights) + points * (sizes.slices * (4 + 6 * lights) + of_list) +
+           request.scene->light_count * side * side * of_list;
+}
+
+brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state)
+{
+    const brume_plugin_scene &scene = *request.scene;
+    const Parameters &p = state.parameters;
+    const maps::Fineness fineness = maps::fineness_of(p.max_error);
+    const bool tinted = is_tinted(scene);
+    const maps::Sizes sizes = sizes_for(request, state);
+    Maps &m = state.maps;
+    GridSettings &s = m.settings;
+    s.size = ivec2(state.width, state.height);
+    s.cell = sizes.cell;
+    s.columns = corners(state.width, s.cell);
+    s.rows = corners(state.height, s.cell);
+    s.slices = sizes.slices;
+    s.across = std::clamp(widest / s.columns, 1, s.slices + 1);
+    s.side = fineness.side;
+    s.nodes = fineness.nodes;
+    s.tinted = tinted;
+    const brume_plugin_medium &medium = *scene.medium;
+    auto grey = [](const float (&v)[3]) { return v[0] == v[1] && v[1] == v[2]; };
+    s.grey = grey(medium.scattering) && grey(medium.absorption);
+    s.angle = float(fineness.angle * std::clamp(1.5 * (1 - std::abs(double(medium.asymmetry))), 0.2, 1.0));
+    s.depth = float(fineness.depth);
+    s.doubt = float(fineness.doubt);
+    const uint64_t map_bytes = uint64_t(s.side) * uint64_t(s.side) * uint64_t(s.nodes) * 4;
+    const int room = std::clamp(int(most_map_bytes / map_bytes), maps::lights_at_once, std::min(most_kept_maps, 16384 / s.side));
+    m.kept = std::clamp(int(scene.light_count), maps::lights_at_once, room);
+
+    auto image = [&](const char *label, ivec2 size, int32_t channels, brume_plugin_image &out) {
+        return services.create_image(host, label, size.x, size.y, channels, &out);
+    };
+    if (brume_status e = image("attenuation maps", ivec2(s.side * s.nodes, s.side * m.kept), 1, m.attenuation))
+        return e;
+    if (brume_status e = image("grid of density", grid_size(s), tinted ? 4 : 1, m.density))
+        return e;
+    if (brume_status e = image("grid of the lights", grid_size(s), 4, m.lights))
+        return e;
+    const ivec2 reduced = brume::maths_float::reduced_size(s.size, p.reduction);
+    if (brume_status e = image("airlight so far", reduced, 4, m.radiance))
+        return e;
+    if (state.error)
+        if (brume_status e = image("airlight error so far", reduced, 4, m.error))
+            return e;
+
+    auto entry = [&](const char *name, const std::string &reason, double bytes, double operations) {
+        brume_plugin_entry e{sizeof e, 1u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        return services.add_entry(host, &e);
+    };
+    const double lights = scene.light_count, points = double(grid_size(s).x) * grid_size(s).y;
+    if (brume_status e = entry("maps",
+                               std::to_string(s.side) + " x " + std::to_string(s.side) + " directions, " + std::to_string(s.nodes) +
+                                   " distances around each light, when a light or the medium moved",
+                               lights * double(map_bytes), 0))
+        return e;
+    if (brume_status e = entry("grid",
+                               "cells of " + std::to_string(s.cell) + " px, " + std::to_string(s.slices) + " distances, " +
+                                   std::to_string((sizes.bytes + 500000) / 1000000) + " MB, when something moved",
+                               points * 20, points * 4 * lights))
+        return e;
+    return create_map_passes(services, host, state);
+}
+
+namespace {
+
+// Where each light's nodes are.
+void place_frames(const brume_plugin_scene &scene, const ShadowLists &lists, std::vector<float> &texels)
+{
+    using namespace brume::maths_double;
+    const Medium medium = medium_of(scene);
+    texels.assign(size_t(scene.light_count) * 12, 0.0f);
+    for (uint32_t l = 0; l < scene.light_count; ++l) {
+        const brume_plugin_light &light = scene.lights[l];
+        const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
+        const vec3 position(light.position[0], light.position[1], light.position[2]),
+            direction(light.direction[0], light.direction[1], light.direction[2]);
+        double near = 1e30, far = -1e30;
+        for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
+            const Gaussian g = gaussian_of(scene.gaussians[i]);
+            const double reach = gaussian_reach(medium, g), at = parallel ? dot(direction, g.center) : length(g.center - position);
+            near = std::min(near, at - reach);
+            far = std::max(far, at + reach);
+        }
+        if (!parallel)
+            near = std::max(near, 0.0);
+        if (!(near < far)) {
+            near = 0;
+            far = 1;
+        }
+        std::copy_n(&lists.origins[12 * (1 + l)], 8, &texels[12 * l]);
+        texels[12 * l + 8] = float(near);
+        texels[12 * l + 9] = float(std::max(far, near + 1e-6 * std::max(1.0, std::abs(near))));
+    }
+}
+
+}  // namespace
+
+brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved, State &state)
+{
+    Maps &m = state.maps;
+    maps::place_slices(scene, m.settings.slices, m.values);
+    if (brume_status s = services.upload(host, upload_slices, 1, m.values.data(), m.values.size(), &m.slices))
+        return s;
+    if (scene.light_count == 0)
+        return BRUME_OK;
+    place_frames(scene, state.lists, m.values);
+    if (brume_status s = services.upload(host, upload_attenuation_frames, 4, m.values.data(), m.values.size() / 4, &m.frames))
+        return s;
+    m.settings.gaussians = int(scene.gaussian_count);
+    m.maps_pending = m.maps_pending || moved;
+    m.grid_pending = true;
+    m.in_grid = ivec2(0);
+    return BRUME_OK;
+}
+
+namespace {
+
+class Run {
+public:
+    Run(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)
+        : services_(services), host_(host), frame_(frame), state_(state), maps_(state.maps)
+    {
+        constants_.grid = maps_.settings;
+        constants_.airlight = settings_of(state, *frame.scene);
+        constants_.estimate = state.error != nullptr;
+    }
+
+    brume_status maps_of(int first, int last);
+    brume_status density();
+    brume_status lights(int first, int last);
+    brume_status gather(const MappedGather &wanted, brume_plugin_image previous, brume_plugin_image previous_error);
+
+private:
+    brume_plugin_image product(Product of, uint32_t index = 0) const
+    {
+        const brume_plugin_product &product = frame_.products[of];
+        return index < product.image_count ? product.images[index] : nullptr;
+    }
+
+    const brume_services &services_;
+    brume_host host_;
+    const brume_plugin_frame &frame_;
+    State &state_;
+    Maps &maps_;
+    Constants constants_{};
+};
+
+brume_status Run::maps_of(int first, int last)
+{
+    using namespace maps::attenuation;
+    Constants constants = constants_;
+    const bool kept = int(frame_.scene->light_count) <= maps_.kept;
+    constants.grid.mapped = kept ? 0 : first;
+    constants.first_row = kept ? first * constants.grid.side : 0;
+    brume_plugin_image images[slot_count] = {};
+    images[gaussians] = product(product_gaussians);
+    images[cells] = state_.cells;
+    images[cell_gaussians] = state_.cell_gaussians;
+    images[shadow_origins] = state_.origins;
+    images[frames] = maps_.frames;
+    images[maps::attenuation::lights] = product(product_lights);
+    images[result] = maps_.attenuation;
+    return services_.run(host_, maps_.attenuation_pass, images, &constants, constants.grid.side, constants.grid.side * (last - first), nullptr);
+}
+
+brume_status Run::density()
+{
+    using namespace maps::density;
+    brume_plugin_image images[slot_count] = {};
+    images[gaussians] = product(product_gaussians);
+    images[tiles] = product(product_gaussians, 1);
+    images[tile_gaussians] = product(product_gaussians, 2);
+    images[slices] = maps_.slices;
+    images[result] = maps_.density;
+    return services_.run(host_, maps_.density_pass, images, &constants_, constants_.grid.columns, constants_.grid.rows, nullptr);
+}
+
+brume_status Run::lights(int first, int last)
+{
+    namespace slot = maps::lights;
+    constants_.light_range = ivec2(first, last);
+    constants_.grid.mapped = int(frame_.scene->light_count) <= maps_.kept ? 0 : first;
+    brume_plugin_image images[slot::slot_count] = {};
+    images[slot::attenuation] = maps_.attenuation;
+    images[slot::frames] = maps_.frames;
+    images[slot::lights] = product(product_lights);
+    images[slot::slices] = maps_.slices;
+    images[slot::result] = maps_.lights;
+    const ivec2 size = grid_size(constants_.grid);
+    return services_.run(host_, maps_.lights_pass, images, &constants_, size.x, size.y, nullptr);
+}
+
+brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, brume_plugin_image before_error)
+{
+    namespace slot = maps::gather;
+    constants_.light_range = ivec2(wanted.first, wanted.last);
+    constants_.reduction = wanted.reduction;
+    if (!wanted.environment)
+        constants_.airlight.environment_order = 0;
+    brume_plugin_image images[slot::slot_count] = {};
+    images[slot::depth] = frame_.depth;
+    images[slot::gaussian_density] = product(product_gaussian_density);
+    images[slot::slices] = maps_.slices;
+    images[slot::grid_density] = maps_.density;
+    images[slot::grid_lights] = maps_.lights;
+    images[slot::lights] = product(product_lights);
+    images[slot::environment] = state_.environment;
+    images[slot::environment_table] = state_.environment_table;
+    images[slot::surroundings] = state_.surroundings;
+    images[slot::light_shadows] = product(product_light_shadows);
+    for (uint32_t i = 0; i < most_shadow_maps; ++i)
+        images[slot::shadow_0 + i] = state_.shadow_maps[i].image;
+    images[slot::previous] = before;
+    images[slot::previous_error] = before_error;
+    images[slot::radiance] = wanted.radiance;
+    images[slot::error] = wanted.error;
+    images[slot::distances] = wanted.distances;
+    const ivec2 grid = brume::maths_float::reduced_size(constants_.grid.size, wanted.reduction);
+    return services_.run(host_, maps_.gather_pass, images, &constants_, grid.x, grid.y, nullptr);
+}
+
+}  // namespace
+
+brume_status gather_by_maps(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state,
+                            const MappedGather &wanted)
+{
+    Maps &m = state.maps;
+    const int count = int(frame.scene->light_count), at_once = maps::lights_at_once;
+    const bool kept = count <= m.kept;
+    if (m.maps_pending && kept) {
+        if (brume_status s = Run(services, host, frame, state).maps_of(0, count))
+            return s;
+        m.maps_pending = false;
+    }
+    if (m.grid_pending) {
+        if (brume_status s = Run(services, host, frame, state).density())
+            return s;
+        m.grid_pending = false;
+    }
+    // So that the last round writes what is wanted.
+    const int rounds = std::max(1, (wanted.last - wanted.first + at_once - 1) / at_once);
+    for (int round = 0; round < rounds; ++round) {
+        const int first = wanted.first + round * at_once, last = std::min(first + at_once, wanted.last);
+        Run run(services, host, frame, state);
+        if (first < last && (m.in_grid.x != first || m.in_grid.y != last)) {
+            if (!kept)
+                if (brume_status s = run.maps_of(first, last))
+                    return s;
+            if (brume_status s = run.lights(first, last))
+                return s;
+            m.in_grid = ivec2(first, last);
+        }
+        const bool ours = (rounds - 1 - round) % 2 == 0;
+        MappedGather now = wanted;
+        now.first = first;
+        now.last = last;
+        now.radiance = ours ? wanted.radiance : m.radiance;
+        now.error = !wanted.error ? nullptr : ours ? wanted.error : m.error;
+        now.environment = wanted.environment && round == 0;
+        if (brume_status s = run.gather(now, round == 0 ? nullptr : ours ? m.radiance : wanted.radiance,
+                                        round == 0 || !wanted.error ? nullptr : ours ? m.error : wanted.error))
+            return s;
+    }
+    return BRUME_OK;
+}
+
+}  // namespace airlight

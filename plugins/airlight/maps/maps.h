@@ -1,0 +1,64 @@
+// Method `maps`: attenuation maps of the lights (Gautron et al.) and a grid of density along the view's rays.
+#pragma once
+#include <string>
+#include <vector>
+
+#include <brume/brume_plugin.h>
+
+#include "scene_maths.hpp"
+
+namespace airlight {
+
+struct State;
+
+// Lights whose maps are kept; more have theirs made in every frame.
+constexpr int most_kept_maps = 64;
+
+struct Maps {
+    bool used = false;
+    brume::maths_float::GridSettings settings{};
+    int kept = 0;  // maps that there is room for
+    brume_plugin_image attenuation = nullptr;
+    brume_plugin_image density = nullptr;  // grid_density
+    brume_plugin_image lights = nullptr;   // grid_lights
+    brume_plugin_image radiance = nullptr, error = nullptr;  // of the lights so far, in turn with State's
+    brume_pass attenuation_pass = nullptr;
+    brume_pass density_pass = nullptr;
+    brume_pass lights_pass = nullptr;
+    brume_pass gather_pass = nullptr;
+
+    // Refreshed when something moved.
+    brume_plugin_image slices = nullptr;
+    brume_plugin_image frames = nullptr;  // attenuation_frames
+    bool maps_pending = false;
+    bool grid_pending = false;
+    brume::maths_float::ivec2 in_grid{0};  // the lights whose attenuation grid_lights has
+    std::vector<float> values;
+};
+
+// Whether the grid can be as fine as the scene's Gaussians are small.
+bool maps_suit(const brume_plugin_request &request, const State &state);
+
+// Of a frame in which all moved, as brume_plugin_entry counts them.
+double mapped_operations(const brume_plugin_request &request, const State &state);
+
+// At planning: sizes, images, passes and their entries.
+brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state);
+
+// Of a frame whose lights, Gaussians or camera moved, after the lists of shadow_lists.h. moved: not the camera alone.
+brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved, State &state);
+
+// The airlight of the lights [first, last) into an image.
+struct MappedGather {
+    int first;
+    int last;
+    brume_plugin_image radiance;
+    brume_plugin_image error;
+    brume_plugin_image distances;
+    bool environment;
+    int reduction;
+};
+brume_status gather_by_maps(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state,
+                            const MappedGather &wanted);
+
+}  // namespace airlight

@@ -1,0 +1,48 @@
+#include "run/sweep.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "commands/commands.hpp"
+
+namespace brume::tool {
+
+void add_sweep(CLI::App &app, Action &chosen)
+{
+    auto *command = app.add_subcommand("sweep", "Put fogs that are drawn by seed into one picture, for data sets");
+    auto options = std::make_shared<SweepOptions>();
+    options->fog.add_scene_to(*command);
+    command->add_option("PICTURE", options->input, "EXR, TIFF, PNG, JPEG, DPX, HDR, PFM or NPY file")->required();
+    command->add_option("-o,--output", options->output, "Output pattern such as fog.####.png; folders are made")
+        ->required()
+        ->type_name("OUTPUT");
+    command->add_option("--count", options->count, "Samples")->required()->check(CLI::Range(1, 1000000));
+    command
+        ->add_option("--vary", options->vary,
+                     "Draw a number of the scene file from a range, such as medium.visibility=50:500:log; "
+                     "lights.intensity=x0.5:2 is a factor; may be repeated")
+        ->required()
+        ->type_name("PATH=LOW:HIGH")
+        ->allow_extra_args(false);
+    command->add_option("--seed", options->seed, "Same seed, same samples")->capture_default_str();
+    command
+        ->add_option(
+            "--transmittance", options->transmittance,
+            "Also write what of the light arrives straight, 0 to 1: a pattern such as t.####.png (16 bits), .exr or "
+            ".npy")
+        ->type_name("OUTPUT");
+    command
+        ->add_option("--input-space", options->spaces.input_space,
+                     "Colour space of the pixels (default: what the file says, or scene_linear of the config)")
+        ->type_name("SPACE");
+    command->add_option("--output-space", options->spaces.output_space, "Colour space to write (default: as they came)")
+        ->type_name("SPACE");
+    command
+        ->add_option("--output-type", options->output_type,
+                     "uint8, uint16, half or float, for outputs that are no rewritten EXR (default: what loses least)")
+        ->type_name("TYPE");
+    command->callback([&chosen, options] { chosen = [options] { return run_sweep(*options); }; });
+}
+
+}  // namespace brume::tool

@@ -1,0 +1,31 @@
+#include <OpenImageIO/imageio.h>
+
+#include "image/oiio/picture.hpp"
+
+namespace brume::tool {
+namespace {
+
+class Library : public ImageLibrary {
+public:
+    std::unique_ptr<PictureSource> open(const std::filesystem::path &file, const std::string &format,
+                                        const ReadLimits &limits) const override
+    {
+        return open_picture(file, format, limits);
+    }
+    void write(const std::filesystem::path &file, const std::string &final_name, const std::string &format,
+               const Raster &raster) const override
+    {
+        write_picture(file, final_name, format, raster);
+    }
+    void set_threads(int threads) const override { OIIO::attribute("threads", threads); }
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const ImageLibrary *brume_image_library(const char *version)
+{
+    static const Library library;
+    return std::string_view(version) == kImageModuleVersion ? &library : nullptr;
+}
+
+}  // namespace brume::tool

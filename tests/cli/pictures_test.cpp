@@ -1,0 +1,251 @@
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "files.hpp"
+#include "image/frame.hpp"
+#include "image/library.hpp"
+#include "png_files.hpp"
+
+namespace brume::tests {
+namespace {
+
+using namespace brume::tool;
+
+constexpr int kCount = kWidth * kHeight;
+
+double from_srgb(double v)
+{
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+double to_srgb(double v)
+{
+    return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+std::vector<float> floats(int channels, const std::function<double(int pixel, int channel)> &value)
+{
+    std::vector<float> out;
+    for (int i = 0; i < kCount; ++i)
+        for (int c = 0; c < channels; ++c)
+            out.push_back(float(value(i, c)));
+    return out;
+}
+
+class Pictures : public testing::Test {
+protected:
+    Pictures()
+    {
+        // Absorption alone, along rays: each pixel's factor is known, and no camera is asked for.
+        write_text(fog_, R"({"brume":1,"medium":{"absorption":[0.1,0.1,0.1]}})");
+        write_text(clear_, kClear);
+        for (int i = 0; i < kCount * 3; ++i)
+            rgb8_.push_back(std::uint8_t(i * 37 % 256));
+        write_png(colour_, 3, rgb8_);
+        for (int i = 0; i < kCount; ++i)
+            depth16_.push_back(std::uint16_t(i % kWidth * 50 + 1));
+        write_png(depth_, 1, depth16_);
+    }
+    Result run(const std::string &output, std::vector<std::string> more = {}) const
+    {
+        std::vector<std::string> words{"run",       fog_.string(), colour_.string(), "-o",  (folder_ / output).string(),
+                                       "--backend", "cpu",         "--depth-kind",   "ray", "--vfov",
+                                       "50"};
+        if (std::find(more.begin(), more.end(), "--depth") == more.end())
+            words.insert(words.end(), {"--depth", depth_.string(), "--depth-scale", "0.01"});
+        words.insert(words.end(), more.begin(), more.end());
+        return brume(words);
+    }
+    void expect_refused(const Result &r, std::vector<std::string> said, int status = 2) const
+    {
+        EXPECT_EQ(r.status, status) << r.err;
+        for (const std::string &word : said)
+            EXPECT_NE(r.err.find(word), std::string::npos) << r.err << "\nlacks " << word;
+    }
+    double transmittance(int pixel) const { return std::exp(-0.1 * 0.01 * depth16_[std::size_t(pixel)]); }
+
+    Folder folder_;
+    fs::path fog_ = folder_ / "fog.json", clear_ = folder_ / "clear.json", colour_ = folder_ / "c.png",
+             depth_ = folder_ / "d.png";
+    std::vector<std::uint8_t> rgb8_;
+    std::vector<std::uint16_t> depth16_;
+};
+
+TEST_F(Pictures, APngWithMetricDepthIsFoggedAsLight)
+{
+    const Result r = run("o.png");
+    ASSERT_EQ(r.status, 0) << r.err;
+    int channels = 0;
+    const auto out = read_png<std::uint8_t>(folder_ / "o.png", channels);
+    ASSERT_EQ(channels, 3);
+    for (int i = 0; i < kCount * 3; ++i)
+        EXPECT_NEAR(out[std::size_t(i)], 255 * to_srgb(from_srgb(rgb8_[std::size_t(i)] / 255.0) * transmittance(i / 3)),
+                    1.01)
+            << i;
+    ASSERT_EQ(run("again.png").status, 0);
+    EXPECT_EQ(read_text(folder_ / "o.png"), read_text(folder_ / "again.png"));
+}
+
+TEST_F(Pictures, NothingToDoChangesNoPixel)
+{
+    fog_ = clear_;
+    for (int channels : {1, 3, 4}) {
+        std::vector<std::uint8_t> pixels;
+        std::vector<std::uint16_t> deep;
+        for (int i = 0; i < kCount * channels; ++i) {
+            pixels.push_back(i % channels == 3 ? 255 : std::uint8_t(i * 91 % 256));
+            deep.push_back(i % channels == 3 ? 65535 : std::uint16_t(i * 7919 % 65536));
+        }
+        int n = 0;
+        write_png(colour_, channels, pixels);
+        ASSERT_EQ(run("o.png").status, 0);
+        EXPECT_EQ(read_png<std::uint8_t>(folder_ / "o.png", n), pixels) << channels;
+        EXPECT_EQ(n, channels);
+        write_png(colour_, channels, deep);
+        ASSERT_EQ(run("o.png").status, 0);
+        EXPECT_EQ(read_png<std::uint16_t>(folder_ / "o.png", n), deep) << channels;
+    }
+}
+
+TEST_F(Pictures, EightBitsAreDitheredSoThatTheirMeanIsRight)
+{
+    write_png(colour_, 3, std::vector<std::uint8_t>(3 * kCount, 100));
+    write_png(depth_, 1, std::vector<std::uint16_t>(kCount, 40));
+    ASSERT_EQ(run("o.png").status, 0);
+    int n = 0;
+    const auto out = read_png<std::uint8_t>(folder_ / "o.png", n);
+    const double expected = 255 * to_srgb(from_srgb(100 / 255.0) * std::exp(-0.1 * 0.4));
+    ASSERT_GT(expected - std::floor(expected), 0.1);
+    std::map<int, int> counts;
+    double sum = 0;
+    for (const std::uint8_t v : out) {
+        ++counts[v];
+        sum += v;
+    }
+    EXPECT_EQ(counts.size(), 2u) << "what lies between two becomes either";
+    EXPECT_NEAR(sum / double(out.size()), expected, 0.03);
+}
+
+TEST_F(Pictures, FloatsAndExrAreSceneLinear)
+{
+    for (const char *name : {"o.exr", "o.pfm", "o.npy", "o.hdr", "o.tif"}) {
+        const Result r = run(name, std::string(name) == "o.tif" ? std::vector<std::string>{"--output-type", "half"}
+                                                                : std::vector<std::string>{});
+        ASSERT_EQ(r.status, 0) << r.err;
+        const ImageFile file(folder_ / name);
+        const Frame frame = read_frame(file, resolve_color(file, {}), nullptr);
+        ASSERT_EQ(frame.pixels.size(), rgb8_.size());
+        for (int i = 0; i < kCount * 3; ++i)
+            EXPECT_NEAR(frame.pixels[std::size_t(i)], from_srgb(rgb8_[std::size_t(i)] / 255.0) * transmittance(i / 3), 5e-3)
+                << name << i;
+    }
+}
+
+TEST_F(Pictures, EveryFormatIsWrittenTwiceToTheSameBytes)
+{
+    for (const char *name : {"o.png", "o.jpg", "o.tif", "o.dpx", "o.hdr", "o.pfm", "o.npy", "o.exr"}) {
+        ASSERT_EQ(run(name).status, 0) << name;
+        const std::string first = read_text(folder_ / name);
+        ::sleep(1);  // dates have seconds
+        fs::remove(folder_ / name);
+        ASSERT_EQ(run(name).status, 0) << name;
+        EXPECT_TRUE(read_text(folder_ / name) == first) << name;
+        EXPECT_TRUE(first.find("brume-cli") == std::string::npos && first.find(".partial") == std::string::npos) << name;
+    }
+}
+
+TEST_F(Pictures, StraightAlphaIsColourThatFogSeesMultiplied)
+{
+    std::vector<std::uint8_t> rgba;
+    for (int i = 0; i < kCount; ++i)
+        rgba.insert(rgba.end(), {200, 100, 50, std::uint8_t(i % 2 ? 128 : 255)});
+    write_png(colour_, 4, rgba);
+    ASSERT_EQ(run("o.png").status, 0);
+    int n = 0;
+    const auto out = read_png<std::uint8_t>(folder_ / "o.png", n);
+    ASSERT_EQ(n, 4);
+    for (int i = 0; i < kCount; ++i) {
+        EXPECT_EQ(out[std::size_t(4 * i + 3)], rgba[std::size_t(4 * i + 3)]);
+        EXPECT_NEAR(out[std::size_t(4 * i)], 255 * to_srgb(from_srgb(200 / 255.0) * transmittance(i)), 1.01);
+    }
+    ASSERT_EQ(run("o.exr").status, 0);
+    EXPECT_NEAR(read_plane(folder_ / "o.exr", "R")[1], from_srgb(200 / 255.0) * 128 / 255 * transmittance(1), 1e-3)
+        << "OpenEXR's colour is multiplied by alpha";
+}
+
+TEST_F(Pictures, PaletteIsColour)
+{
+    std::vector<std::uint8_t> indices;
+    for (int i = 0; i < kCount; ++i)
+        indices.push_back(std::uint8_t(i));
+    write_png(colour_, 1, indices, kWidth, kHeight, PNG_COLOR_TYPE_PALETTE);
+    fog_ = clear_;
+    ASSERT_EQ(run("o.png").status, 0);
+    int n = 0;
+    const auto out = read_png<std::uint8_t>(folder_ / "o.png", n);
+    ASSERT_EQ(n, 3);
+    EXPECT_EQ(out[3 * 10], 10);
+    EXPECT_EQ(out[3 * 10 + 1], 245);
+}
+
+TEST_F(Pictures, DepthComesFromPfmAndNpyInAnyOrder)
+{
+    ASSERT_EQ(run("o.png").status, 0);
+    const std::string expected = read_text(folder_ / "o.png");
+    std::vector<float> metres, from_below, by_columns;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            metres.push_back(0.01f * depth16_[std::size_t(y * kWidth + x)]);
+    for (int y = kHeight - 1; y >= 0; --y)
+        from_below.insert(from_below.end(), metres.begin() + y * kWidth, metres.begin() + (y + 1) * kWidth);
+    for (int x = 0; x < kWidth; ++x)
+        for (int y = 0; y < kHeight; ++y)
+            by_columns.push_back(metres[std::size_t(y * kWidth + x)]);
+    const auto expect_as_png = [&](const std::string &name, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"--depth", (folder_ / name).string()});
+        const Result r = run("p.png", more);
+        ASSERT_EQ(r.status, 0) << name << r.err;
+        EXPECT_TRUE(read_text(folder_ / "p.png") == expected) << name;
+    };
+    write_text(folder_ / "little.pfm", "Pf\n32 24\n-1.0\n" + bytes(from_below));
+    write_text(folder_ / "big.pfm", "Pf\n32 24\n1.0\n" + bytes(from_below, true));
+    expect_as_png("little.pfm");
+    expect_as_png("big.pfm");
+    write_npy(folder_ / "c.npy", "{'descr': '<f4', 'fortran_order': False, 'shape': (24, 32), }", bytes(metres));
+    write_npy(folder_ / "b.npy", "{'descr': '>f4', 'fortran_order': False, 'shape': (24, 32, 1), }", bytes(metres, true));
+    write_npy(folder_ / "f.npy", "{'descr': '<f4', 'fortran_order': True, 'shape': (24, 32), }", bytes(by_columns));
+    write_npy(folder_ / "u.npy", "{'descr': '<u2', 'fortran_order': False, 'shape': (24, 32), }", bytes(depth16_));
+    expect_as_png("c.npy");
+    expect_as_png("b.npy");
+    expect_as_png("f.npy");
+    expect_as_png("u.npy", {"--depth-scale", "0.01"});
+    write_exr(folder_ / "z.exr", {{{{"Y", Imf::FLOAT, [&](int x, int y) { return metres[std::size_t(y * kWidth + x)]; }}}}});
+    expect_as_png("z.exr");
+    expect_as_png("z.exr:Y");
+}
+
+TEST_F(Pictures, WhatWouldLoseItsRangeOrMeaningIsRefused)
+{
+    write_exr(folder_ / "in.exr", {{rgbz()}});
+    colour_ = folder_ / "in.exr";
+    expect_refused(run("o.png", {"--depth", "Z"}), {"o.png", "uint8 holds 0 to 1", "in.exr", "--output-space"});
+    EXPECT_FALSE(fs::exists(folder_ / "o.png"));
+    const Result clipped = run("o.png", {"--depth", "Z", "--output-space", "sRGB"});
+    EXPECT_EQ(clipped.status, 0) << clipped.err;
+    EXPECT_NE(clipped.err.find("values beyond 0 to 1"), std::string::npos) << clipped.err;
+    expect_refused(run("o.png", {"--depth", "Z", "--output-space", "sRGB", "--layers", "transmittance"}), {"--layers"});
+    expect_refused(run("o.jpg", {"--depth", "Z", "--output-type", "uint16"}), {"--output-type uint16", "expected uint8"});
+    colour_ = folder_ / "c.png";
+    expect_refused(run("o.png", {"--depth", depth_.string()}), {"d.png", "uint16", "--depth-scale"});
+    Raster tiff{kWidth, kHeight, {"R", "G", "B"}, SampleType::kUint8, rgb8_.data()};
+    image_library().write(folder_ / "c.tif", "c.tif", "tiff", tiff);
+    colour_ = folder_ / "c.tif";
+    expect_refused(run("o.png"), {"c.tif", "--input-space"});
+    EXPECT_EQ(run("o.png", {"--input-space", "sRGB"}).status, 0);
+}
+
+}  // namespace
+}  // namespace brume::tests

@@ -1,0 +1,250 @@
+// Tier `maps`: attenuation maps and a grid, against tier `nodes`, which integrates the same media along each ray.
+#include <gtest/gtest.h>
+
+#include "lit_scene.h"
+
+namespace {
+
+using namespace fog;
+
+Json cloud(int count, unsigned seed, double coloured = 0)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(0, 1);
+    Json all = Json::array();
+    for (int i = 0; i < count; ++i) {
+        const double radius = (0.5 + 0.5 * u(random)) * 4 / std::cbrt(double(count));
+        Json g = gaussian({6 * u(random) - 3, 4 * u(random) - 2, -6 - 6 * u(random)}, 1 / radius, 0.25 * u(random));
+        if (coloured > 0)
+            g["colour"] = {1, 1 - coloured * u(random), 1 - coloured};
+        all.push_back(g);
+    }
+    return all;
+}
+
+Json lamps(int count)
+{
+    const Vector places[] = {{-4, 2.5, -8}, {4, 2, -9}, {0, 0.3, -8.5}, {0, 3.5, -11}, {-4, -2, -11}, {4, -2.5, -7}, {-2, 3.5, -5}, {2, 3, -4}, {0, -3, -6}};
+    Json all = Json::array();
+    for (int i = 0; i < count; ++i)
+        all.push_back(point_light(places[i], 10 + 5 * i, 0.05 * (i % 2)));
+    return all;
+}
+
+Json scene_of(const Json &density, const Json &lights, const Json &further = Json::object())
+{
+    Json medium{{"scattering", 1}, {"density", density}};
+    medium.update(further);
+    return lit_scene(medium, lights);
+}
+
+Json with(Json scene, const char *key, const Json &value)
+{
+    scene["effects"]["airlight"][key] = value;
+    return scene;
+}
+
+Picture airlight_of(brume_context context, const Json &scene, const Frame &frame)
+{
+    return run(context, scene.dump(), frame.color, frame.depth, Options{{}, {"airlight"}}).airlight;
+}
+
+struct Errors {
+    double mean = 0, median = 0, p95 = 0, worst = 0;
+    int x = 0, y = 0;
+};
+
+// Relative to the pixel or to a hundredth of the picture's mean.
+Errors errors(const Picture &a, const Picture &exact)
+{
+    double mean = 0;
+    for (float v : exact.data)
+        mean += std::abs(double(v)) / double(exact.data.size());
+    Errors e;
+    std::vector<double> all;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double error = std::abs(double(a.at(x, y)[c]) - double(exact.at(x, y)[c])) / std::max(double(exact.at(x, y)[c]), 0.01 * mean);
+                if (!(error <= e.worst)) {
+                    e.worst = error;
+                    e.x = x;
+                    e.y = y;
+                }
+                all.push_back(error);
+                e.mean += error;
+            }
+    e.mean /= double(all.size());
+    std::sort(all.begin(), all.end());
+    e.median = all[all.size() / 2];
+    e.p95 = all[size_t(0.95 * double(all.size()))];
+    return e;
+}
+
+void report(const char *name, const Errors &e)
+{
+    printf("%s: mean %.2e, median %.2e, 95 %% %.2e, worst %.2e at %d, %d\n", name, e.mean, e.median, e.p95, e.worst, e.x, e.y);
+}
+
+std::vector<NamedScene> clouds()
+{
+    std::vector<NamedScene> all;
+    all.push_back({"a cloud, three lamps, one in it", scene_of(cloud(300, 1), lamps(3)), {}});
+    all.push_back({"absorbing, coloured, forward", scene_of(cloud(300, 2), lamps(2), {{"scattering", {0.8, 0.6, 0.4}}, {"absorption", {0.1, 0.2, 0.4}}, {"g", 0.7}}), {}});
+    all.push_back({"tinted puffs", scene_of(cloud(200, 3, 0.6), lamps(2)), {}});
+    Json hazy = cloud(200, 4);
+    hazy.push_back(constant(0.02));
+    hazy.push_back({{"type", "exponential"}, {"value", 0.05}, {"falloff", 0.5}, {"direction", {0, 1, 0}}, {"origin", {0, -2, 0}}});
+    all.push_back({"puffs in haze", scene_of(hazy, lamps(2)), {}});
+    const Json sun{{"type", "directional"}, {"direction", {0.3, -1, 0.2}}, {"intensity", 3}, {"distance", 5}};
+    all.push_back({"sun", scene_of(cloud(300, 5), Json::array({sun})), {}});
+    const Json spot{{"type", "spot"}, {"position", {-3, 4, -7}}, {"direction", {0.5, -0.8, -0.2}}, {"angle", 40}, {"penumbra", 0.4}, {"intensity", 60}};
+    all.push_back({"spot", scene_of(cloud(300, 6), Json::array({spot})), {}});
+    Json inside = cloud(200, 7);
+    for (Json &g : inside)
+        g["center"][2] = g["center"][2].get<double>() + 8.5;
+    all.push_back({"the camera in the cloud", scene_of(inside, lamps(2)), {}});
+    return all;
+}
+
+TEST(AirlightMaps, AgreeWithNodes)
+{
+    const Frame frame = lit_frame(96, 64);
+    for (const NamedScene &s : clouds()) {
+        const Picture exact = airlight_of(cpu(), with(with(s.scene, "tier", "nodes"), "max_error", 0.0005), frame);
+        const Errors e = errors(airlight_of(cpu(), with(s.scene, "tier", "maps"), frame), exact),
+                     fine = errors(airlight_of(cpu(), with(with(s.scene, "tier", "maps"), "max_error", 0.001), frame), exact);
+        report(s.name, e);
+        report("  max_error .001", fine);
+        // These Gaussians are a few pixels wide, so that their cells are pixels: the rims of the cloud are what is left.
+        EXPECT_LT(e.median, 0.004) << s.name;
+        EXPECT_LT(e.p95, 0.02) << s.name;
+        EXPECT_LT(fine.median, 0.002) << s.name;
+        EXPECT_LT(fine.p95, 0.015) << s.name;
+    }
+}
+
+TEST(AirlightMaps, GpuAgainstCpu)
+{
+    if (!gl())
+        GTEST_SKIP() << "no GL backend";
+    const Frame frame = lit_frame(64, 40);
+    for (const NamedScene &s : clouds()) {
+        const Json scene = with(s.scene, "tier", "maps");
+        const Errors e = errors(airlight_of(*gl(), scene, frame), airlight_of(cpu(), scene, frame));
+        report(s.name, e);
+        // GPUs give the fraction of a bilinear fetch 8 bits. On the CPU the pixels side by side halve a step together, so around a
+        // lamp some have finer steps there.
+        EXPECT_LT(e.p95, 1e-3) << s.name;
+        EXPECT_LT(e.worst, 0.1) << s.name << " at " << e.x << ", " << e.y;
+    }
+}
+
+// Light adds up, over rounds of four and beyond the maps that are kept.
+TEST(AirlightMaps, ManyLightsAreTheSumOfEach)
+{
+    const Frame frame = lit_frame(48, 32);
+    const Json density = cloud(100, 9), all = lamps(9);
+    const Picture together = airlight_of(cpu(), with(scene_of(density, all), "tier", "maps"), frame);
+    Picture sum = together;
+    std::fill(sum.data.begin(), sum.data.end(), 0.0f);
+    for (const Json &one : all) {
+        const Picture p = airlight_of(cpu(), with(scene_of(density, Json::array({one})), "tier", "maps"), frame);
+        for (size_t i = 0; i < p.data.size(); ++i)
+            sum.data[i] += p.data[i];
+    }
+    const Errors e = errors(together, sum);
+    EXPECT_LT(e.worst, 1e-5) << e.x << ", " << e.y;
+}
+
+TEST(AirlightMaps, AnyNumberOfThreadsBitForBit)
+{
+    const Frame frame = lit_frame(50, 34);
+    const Json scene = with(scene_of(cloud(120, 10, 0.3), lamps(5)), "tier", "maps");
+    Context one(BRUME_BACKEND_CPU, 1), three(BRUME_BACKEND_CPU, 3);
+    EXPECT_EQ(airlight_of(one, scene, frame).data, airlight_of(three, scene, frame).data);
+}
+
+// Maps are kept while the camera alone moves.
+TEST(AirlightMaps, FollowTheCamera)
+{
+    const Frame frame = lit_frame(48, 32);
+    const Json scene = with(scene_of(cloud(150, 11), lamps(3)), "tier", "maps");
+    const brume_camera moved = camera(pose({0.4, 0.2, -0.3}, 0.1, -0.05), 50);
+    Options options{{}, {"airlight"}};
+    const Plan plan(cpu(), scene.dump(), frame.color.width, frame.color.height, options);
+    plan.execute(frame.color, frame.depth, options);
+    options.camera = &moved;
+    const Picture kept = plan.execute(frame.color, frame.depth, options).airlight;
+    const Plan fresh(cpu(), scene.dump(), frame.color.width, frame.color.height, options);
+    const Errors e = errors(kept, fresh.execute(frame.color, frame.depth, options).airlight);
+    EXPECT_LT(e.worst, 1e-4) << e.x << ", " << e.y;
+}
+
+TEST(AirlightMaps, LessMemoryIsACoarserGrid)
+{
+    const Frame frame = lit_frame(256, 160);
+    const Json scene = with(scene_of(cloud(300, 1), lamps(1)), "tier", "maps");
+    auto bytes = [&](double megabytes) {
+        const Plan plan(cpu(), with(scene, "memory", megabytes).dump(), frame.color.width, frame.color.height);
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        EXPECT_EQ(brume_plan_get_info(plan, &info), BRUME_OK);
+        return info.image_bytes;
+    };
+    const auto much = bytes(256), little = bytes(8);
+    EXPECT_LT(little, much);
+    const Picture exact = airlight_of(cpu(), with(with(scene, "tier", "nodes"), "max_error", 0.001), frame);
+    const Errors coarse = errors(airlight_of(cpu(), with(scene, "memory", 8), frame), exact);
+    report("8 MB", coarse);
+    EXPECT_LT(coarse.median, 0.01);
+    EXPECT_LT(coarse.p95, 0.1);
+}
+
+TEST(AirlightMaps, ErrorEstimateBoundsTheError)
+{
+    const Frame frame = lit_frame(96, 64);
+    int bounded = 0, all = 0;
+    std::vector<double> excess;
+    for (const NamedScene &s : clouds()) {
+        const Picture exact = airlight_of(cpu(), with(with(s.scene, "tier", "nodes"), "max_error", 0.0005), frame);
+        const Result r = run(cpu(), with(s.scene, "tier", "maps").dump(), frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}});
+        int here = 0, of = 0;
+        for (size_t i = 0; i < exact.data.size(); ++i) {
+            const double error = std::abs(double(r.airlight.data[i]) - double(exact.data[i]));
+            here += error <= double(r.airlight_error.data[i]) + 1e-5 * double(exact.data[i]);
+            ++of;
+            if (error > 1e-6 * double(exact.data[i]))
+                excess.push_back(double(r.airlight_error.data[i]) / error);
+        }
+        printf("%s: bounded in %.1f %%\n", s.name, 100.0 * here / of);
+        bounded += here;
+        all += of;
+    }
+    std::sort(excess.begin(), excess.end());
+    printf("median of estimate / error %.2g\n", excess[excess.size() / 2]);
+    EXPECT_GE(double(bounded) / all, 0.95);
+    EXPECT_LE(excess[excess.size() / 2], 10);
+}
+
+// Where one Gaussian would do, nothing changes; where there are many, maps are taken and the plan says so.
+TEST(AirlightMaps, AreTakenWhereTheyPay)
+{
+    auto mapped = [](const Json &scene) {
+        const Plan plan(cpu(), scene.dump(), 320, 180);
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        brume_plan_get_info(plan, &info);
+        for (uint32_t e = 0; e < info.entry_count; ++e) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            brume_plan_get_entry(plan, e, &entry);
+            if (std::string(entry.name) == "maps")
+                return true;
+        }
+        return false;
+    };
+    EXPECT_FALSE(mapped(scene_of(Json::array({constant(0.1)}), lamps(1))));
+    EXPECT_TRUE(mapped(scene_of(cloud(300, 1), lamps(3))));
+    EXPECT_FALSE(mapped(with(scene_of(cloud(300, 1), lamps(3)), "tier", "nodes")));
+    EXPECT_TRUE(mapped(with(scene_of(cloud(3, 1), lamps(1)), "tier", "maps")));
+}
+
+}  // namespace
