@@ -111,6 +111,8 @@ class Maker:
             return [self.make(schema["items"]) for _ in range(self.dice.randint(least, min(schema.get("maxItems", 3), least + 3)))]
         if kind == "boolean":
             return self.dice.random() < 0.5
+        if kind == "string":
+            return self.dice.choice(("L0", "key light"))
         return self.number(schema, kind == "integer")
 
 
