@@ -22,6 +22,7 @@ UNSAID = (
     "expected a rigid motion",
     "expected a vector that is not zero",  # all of whose keys are zero
     "expected no group, since surfaces is false",
+    "expected a group of its own",
     "cannot be read",
     "expected .csv or .ply",
 )
