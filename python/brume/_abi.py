@@ -26,6 +26,7 @@ MAX_DENSITY_TERMS = 16
 MAX_GAUSSIANS = 1000000
 LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL = range(3)
 SHADOW_NONE, SHADOW_PERSPECTIVE, SHADOW_ORTHOGRAPHIC = range(3)
+SURFACES_LIT, SURFACES_UNLIT = range(2)
 MAX_LIGHTS = 4096
 CAMERA_FIELD_OF_VIEW, CAMERA_POSE = 1, 2
 PRESET_NONE, PRESET_DRAFT, PRESET_STANDARD, PRESET_FINAL, PRESET_REFERENCE = range(5)
@@ -77,7 +78,7 @@ class brume_density_term(Structure):
 
 class brume_gaussian(Structure):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("center", c_double * 3), ("scale", c_double),
-                ("amplitude", c_double), ("colour", c_double * 3)]
+                ("amplitude", c_double), ("color", c_double * 3)]
 
 
 class brume_medium(Structure):
@@ -92,7 +93,8 @@ class brume_light(Structure):
     _fields_ = [("struct_size", c_uint32), ("type", c_uint32), ("position", c_double * 3), ("direction", c_double * 3),
                 ("intensity", c_double * 3), ("radius", c_double), ("angle", c_double), ("penumbra", c_double),
                 ("distance", c_double), ("shadow_kind", c_uint32), ("shadow_depth", c_uint32),
-                ("shadow_extent", c_double), ("shadow_to_world", c_double * 16)]
+                ("shadow_extent", c_double), ("shadow_to_world", c_double * 16), ("surfaces", c_uint32),
+                ("reserved", c_uint32)]
 
 
 class brume_camera(Structure):
@@ -176,6 +178,7 @@ FUNCTIONS = {
     "brume_scene_create": (_status, _handle, POINTER(_handle)),
     "brume_scene_create_from_text": (_status, _handle, c_char_p, c_size_t, c_char_p, POINTER(_handle)),
     "brume_scene_destroy": (None, _handle),
+    "brume_scene_light_group": (c_size_t, _handle, c_uint32, *_text),
     "brume_scene_schema": (c_size_t, _handle, *_text),
     "brume_scene_set_medium": (_status, _handle, POINTER(brume_medium)),
     "brume_scene_set_lights": (_status, _handle, POINTER(brume_light), c_uint32),

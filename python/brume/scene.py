@@ -209,7 +209,7 @@ def _gaussians(values: Any) -> np.ndarray:
     made = np.zeros(len(array), dtype=np.dtype(_abi.brume_gaussian))
     made["struct_size"] = ctypes.sizeof(_abi.brume_gaussian)
     made["center"], made["scale"], made["amplitude"] = array[:, :3], array[:, 3], array[:, 4]
-    made["colour"] = array[:, 5:] if array.shape[1] == 8 else 1.0
+    made["color"] = array[:, 5:] if array.shape[1] == 8 else 1.0
     return made
 
 

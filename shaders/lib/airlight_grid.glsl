@@ -82,6 +82,15 @@ PURE vec3 grid_mean_exponential(IN(GridSettings) s, vec3 tau)
     return vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
 }
 
+// Lights at the end of all numbers: what is not a number does not light.
+PURE float lit_or_dark(float x)
+{
+    return choose(is_finite(x), x, R(0.0));
+}
+
+// Beyond this no light shows.
+const float farthest_light = R(1e15);
+
 // Parallel light is as if it came from so far.
 const float parallel_height = R(1e9);
 
@@ -100,7 +109,7 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
     for (int i = 0; i < count; ++i) {
         light[i] = light_at(lights, first + i);
         aspect[i] = aspect_of(light[i], direction);
-        height[i] = max(aspect[i].height, light[i].radius);
+        height[i] = min(max(aspect[i].height, light[i].radius), farthest_light);
         if (light[i].type == light_directional) {
             aspect[i].foot = R(0.0);
             height[i] = parallel_height;
@@ -129,12 +138,13 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
         float mass = step.x + of_terms;
         if (some(mass > R(0.0))) {
             float before = density.x + terms;
-            vec3 scattering = medium.scattering * (vec3(step.y, step.z, step.w) + vec3(of_terms)) / max(width, R(1e-30));
+            vec3 scattering =
+                min(medium.scattering * ((vec3(step.y, step.z, step.w) + vec3(of_terms)) / max(width, R(1e-30))), vec3(radiance_limit));
             vec3 seen = grid_transmittance(medium, s, before);
             vec3 whole = scattering * seen * grid_mean_exponential(s, extinction * mass);
             for (int i = 0; i < count; ++i) {
-                float a = from - aspect[i].foot;
-                float b = to - aspect[i].foot;
+                float a = clamp(from - aspect[i].foot, -farthest_light, farthest_light);
+                float b = clamp(to - aspect[i].foot, -farthest_light, farthest_light);
                 float h = height[i];
                 float d = light[i].type == light_directional ? R(1.0) : sqrt(h * h + a * a);
                 float e = light[i].type == light_directional ? R(1.0) : sqrt(h * h + b * b);
@@ -165,17 +175,20 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
                     float t = clamp(aspect[i].foot + middle, from, to);
                     float x = t - aspect[i].foot;
                     // dt of the node's part of the angle.
-                    float weight = min((h * h + x * x) / h * part, width);
+                    float weight = lit_or_dark(min((h * h + x * x) / h * part, width));
                     float along = (t - from) / max(width, R(1e-30));
                     vec3 point = t * direction;
                     float far = light[i].type == light_directional ? R(1.0) : length(point - light[i].position);
-                    float depth = clamp(mix(density_a, density_b, along) * far + terms_to_light(medium, light[i], point), R(0.0), density_limit);
-                    float strength = lit_strength(medium, light[i], aspect[i], direction, t) * MAPPED_SHARE(i, low + aspect[i].foot, high + aspect[i].foot);
+                    float gaussians = lit_or_dark(mix(density_a, density_b, along) * far);
+                    float depth = clamp(gaussians + terms_to_light(medium, light[i], point), R(0.0), density_limit);
+                    float strength = lit_or_dark(lit_strength(medium, light[i], aspect[i], direction, t)) *
+                                     MAPPED_SHARE(i, low + aspect[i].foot, high + aspect[i].foot);
                     vec3 arriving = min(strength * light[i].intensity, vec3(radiance_limit)) * grid_transmittance(medium, s, depth);
                     MAPPED_ORDERS(i, t, depth)
                     // Of halved steps each part has its own transmittance to the camera.
                     vec3 source = nodes == 1 ? whole : scattering * grid_transmittance(medium, s, before + mass * along);
-                    total += min(arriving * (source * weight), vec3(radiance_limit));
+                    vec3 amount = min(source * weight, vec3(radiance_limit));
+                    total += min(arriving * amount, vec3(radiance_limit));
                 }
             }
         }

@@ -69,6 +69,7 @@ protected:
     }
     void expect_refused(const std::vector<std::string> &more, const std::vector<std::string> &words)
     {
+        fs::remove(out_);
         const Result r = run(fog_, more);
         EXPECT_EQ(r.status, 2) << more[1];
         for (const std::string &word : words)

@@ -81,7 +81,8 @@ constexpr int stack_width = 40, stack_height = 20;
 template <class Single, class Wide> void expect_close(const Single &found, const Wide &expected, const char *what)
 {
     for (int c = 0; c < 4; ++c)
-        ASSERT_NEAR(found[c], expected[c], 2e-6 * (1 + std::abs(expected[c]))) << what << " channel " << c;
+        // Where the picture ends, 37 texels on, is known to 2e-6 of a texel, and the last texel's share may be a fifth.
+        ASSERT_NEAR(found[c], expected[c], 1e-5 * (1 + std::abs(expected[c]))) << what << " channel " << c;
 }
 
 TEST(Stencils, InFloatAsInDouble)

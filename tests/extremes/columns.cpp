@@ -41,12 +41,15 @@ std::vector<Column> columns()
                             {"fogshop", airlight("fogshop")},
                             {"sun", airlight("sun")},
                             {"reference tier", airlight("reference"), true},
-                            {"calibrated and nodes", filter("calibrated")}};
+                            {"calibrated and nodes", filter("calibrated")},
+                            {"maps", airlight("maps")}};
     all[2].effects["multiscatter"].update(
         {{"separation", true}, {"kernel_size", "6x6"}, {"fetch", "cubic_bicubic"}, {"placement", true}});
     all[5].effects["multiscatter"].update({{"resolution", "quarter"}, {"lobes", "third"}});
     all[7].effects["airlight"]["resolution"] = "quarter";
+    // Scattered once: of light that scatters again both backends know too little in media of 1e4 / m (docs/airlight.md).
     all[11].effects.update(airlight("nodes"));
+    all[11].effects["airlight"]["orders"] = "single";
     return all;
 }
 

@@ -25,6 +25,10 @@ using maps::Constants;
 constexpr uint64_t most_map_bytes = uint64_t(64) << 20;
 constexpr int widest = 8192;  // of the grid's images
 
+// Unasked, maps are for many Gaussians and errors that their grid reaches.
+constexpr uint32_t fewest_gaussians = 32;
+constexpr double least_error = 0.005;
+
 constexpr brume_slot attenuation_slots[] = {fetch("gaussians"),          fetch("cells"),  fetch("cell_gaussians"), fetch("shadow_origins"),
                                             fetch("attenuation_frames"), fetch("lights"), write("result")};
 static_assert(std::size(attenuation_slots) == maps::attenuation::slot_count);
@@ -121,7 +125,8 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
 
 bool maps_suit(const brume_plugin_request &request, const State &state)
 {
-    return request.scene->gaussians && sizes_for(request, state).fine;
+    return request.scene->gaussians && request.scene->gaussian_count >= fewest_gaussians &&
+           state.parameters.max_error >= least_error && sizes_for(request, state).fine;
 }
 
 double mapped_operations(const brume_plugin_request &request, const State &state)
@@ -132,8 +137,9 @@ double mapped_operations(const brume_plugin_request &request, const State &state
                  pixels = double(state.width) * state.height / (state.parameters.reduction * state.parameters.reduction),
                  side = maps::fineness_of(state.parameters.max_error).side, of_list = 40 * std::sqrt(1 + 0.1 * gaussians),
                  points = double(corners(state.width, sizes.cell)) * corners(state.height, sizes.cell);
-    return pixels * sizes.slices * (8 + 6 * lights) + points * (sizes.slices * (4 + 6 * lights) + of_list) +
-           request.scene->light_count * side * side * of_list;
+    const double of_backend = request.backend == BRUME_BACKEND_GL ? 6 : 1;  // software GL, as the others are counted
+    return of_backend * (pixels * sizes.slices * (8 + 6 * lights) + points * (sizes.slices * (4 + 6 * lights) + of_list) +
+                         request.scene->light_count * side * side * of_list);
 }
 
 brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state)
