@@ -5,11 +5,11 @@
 
 // The members of a struct's member `airlight`, for tables of constants.
 #define BRUME_AIRLIGHT_SETTINGS(Struct)                                                                                     \
-    BRUME_CONSTANT_OF(Struct, airlight, light_count), BRUME_CONSTANT_OF(Struct, airlight, gaussian_count),                 \
-        BRUME_CONSTANT_OF(Struct, airlight, environment_order), BRUME_CONSTANT_OF(Struct, airlight, panels),               \
-        BRUME_CONSTANT_OF(Struct, airlight, dense_from), BRUME_CONSTANT_OF(Struct, airlight, cells),                       \
-        BRUME_CONSTANT_OF(Struct, airlight, tolerance), BRUME_CONSTANT_OF(Struct, airlight, near_radii),                   \
-        BRUME_CONSTANT_OF(Struct, airlight, culled), BRUME_CONSTANT_OF(Struct, airlight, orders),                          \
+    BRUME_CONSTANT_OF(Struct, airlight, light_count), BRUME_CONSTANT_OF(Struct, airlight, gaussian_count),                  \
+        BRUME_CONSTANT_OF(Struct, airlight, environment_order), BRUME_CONSTANT_OF(Struct, airlight, panels),                \
+        BRUME_CONSTANT_OF(Struct, airlight, dense_from), BRUME_CONSTANT_OF(Struct, airlight, cells),                        \
+        BRUME_CONSTANT_OF(Struct, airlight, tolerance), BRUME_CONSTANT_OF(Struct, airlight, near_radii),                    \
+        BRUME_CONSTANT_OF(Struct, airlight, culled), BRUME_CONSTANT_OF(Struct, airlight, orders),                           \
         BRUME_CONSTANT_OF(Struct, airlight, shadowed)
 
 namespace airlight {

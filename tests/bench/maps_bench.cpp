@@ -34,7 +34,8 @@ void measure(const Asked &asked, int gaussians, int lights)
     const View view{asked.width, asked.height};
     Json listed = Json::array();
     for (const Light &l : cloud.lights)
-        listed.push_back({{"type", "point"}, {"position", {l.position.x, l.position.y, l.position.z}}, {"intensity", l.intensity.x}});
+        listed.push_back(
+            {{"type", "point"}, {"position", {l.position.x, l.position.y, l.position.z}}, {"intensity", l.intensity.x}});
     const Json scene{{"brume", 1},
                      {"camera",
                       {{"vertical_fov", 2 * std::atan(half_tangent) * 57.29577951308232},
@@ -81,7 +82,8 @@ void measure(const Asked &asked, int gaussians, int lights)
         mean += double(airlight.at(i % view.width, i / view.width)[0]) / (view.width * view.height);
     in_parallel(errors.size(), [&](size_t i) {
         const double exact = exact_airlight(cloud, view.direction({places[i].first, places[i].second}));
-        errors[i] = std::abs(double(airlight.at(places[i].first, places[i].second)[0]) - exact) / std::max(exact, 0.01 * mean);
+        errors[i] =
+            std::abs(double(airlight.at(places[i].first, places[i].second)[0]) - exact) / std::max(exact, 0.01 * mean);
     });
     const auto worst = std::max_element(errors.begin(), errors.end()) - errors.begin();
     const auto [wx, wy] = places[size_t(worst)];
@@ -94,8 +96,8 @@ void measure(const Asked &asked, int gaussians, int lights)
     std::string each;
     for (const auto &[name, ms] : passes)
         each += fmt::format(" {} {:.0f}", name, ms);
-    fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.0f} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} at {}, {} |\n", gaussians, lights, cpu, best,
-               first, each, 100 * sum, at(0.5), at(0.95), at(0.99), 100 * most, wx, wy);
+    fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.0f} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} at {}, {} |\n",
+               gaussians, lights, cpu, best, first, each, 100 * sum, at(0.5), at(0.95), at(0.99), 100 * most, wx, wy);
     std::cout << std::flush;
 }
 
@@ -104,7 +106,8 @@ void measure(const Asked &asked, int gaussians, int lights)
 int main(int argc, char **argv)
 {
     Asked asked;
-    fmt::print("| Gaussians | lights | CPU ms / threads | ms | first frame | ms of passes at most | mean %, | median | 95 % | 99 % | worst |\n"
+    fmt::print("| Gaussians | lights | CPU ms / threads | ms | first frame | ms of passes at most | mean %, | median | 95 % "
+               "| 99 % | worst |\n"
                "| ---: | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | --- |\n");
     for (int i = 1; i + 1 < argc; i += 2) {
         const std::string_view name = argv[i], value = argv[i + 1];

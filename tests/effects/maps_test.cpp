@@ -24,7 +24,8 @@ Json cloud(int count, unsigned seed, double coloured = 0)
 
 Json lamps(int count)
 {
-    const Vector places[] = {{-4, 2.5, -8}, {4, 2, -9}, {0, 0.3, -8.5}, {0, 3.5, -11}, {-4, -2, -11}, {4, -2.5, -7}, {-2, 3.5, -5}, {2, 3, -4}, {0, -3, -6}};
+    const Vector places[] = {{-4, 2.5, -8}, {4, 2, -9},    {0, 0.3, -8.5}, {0, 3.5, -11}, {-4, -2, -11},
+                             {4, -2.5, -7}, {-2, 3.5, -5}, {2, 3, -4},     {0, -3, -6}};
     Json all = Json::array();
     for (int i = 0; i < count; ++i)
         all.push_back(point_light(places[i], 10 + 5 * i, 0.05 * (i % 2)));
@@ -65,7 +66,8 @@ Errors errors(const Picture &a, const Picture &exact)
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x)
             for (int c = 0; c < 3; ++c) {
-                const double error = std::abs(double(a.at(x, y)[c]) - double(exact.at(x, y)[c])) / std::max(double(exact.at(x, y)[c]), 0.01 * mean);
+                const double error = std::abs(double(a.at(x, y)[c]) - double(exact.at(x, y)[c])) /
+                                     std::max(double(exact.at(x, y)[c]), 0.01 * mean);
                 if (!(error <= e.worst)) {
                     e.worst = error;
                     e.x = x;
@@ -83,22 +85,28 @@ Errors errors(const Picture &a, const Picture &exact)
 
 void report(const char *name, const Errors &e)
 {
-    printf("%s: mean %.2e, median %.2e, 95 %% %.2e, worst %.2e at %d, %d\n", name, e.mean, e.median, e.p95, e.worst, e.x, e.y);
+    printf("%s: mean %.2e, median %.2e, 95 %% %.2e, worst %.2e at %d, %d\n", name, e.mean, e.median, e.p95, e.worst, e.x,
+           e.y);
 }
 
 std::vector<NamedScene> clouds()
 {
     std::vector<NamedScene> all;
     all.push_back({"a cloud, three lamps, one in it", scene_of(cloud(300, 1), lamps(3)), {}});
-    all.push_back({"absorbing, coloured, forward", scene_of(cloud(300, 2), lamps(2), {{"scattering", {0.8, 0.6, 0.4}}, {"absorption", {0.1, 0.2, 0.4}}, {"g", 0.7}}), {}});
+    all.push_back(
+        {"absorbing, coloured, forward",
+         scene_of(cloud(300, 2), lamps(2), {{"scattering", {0.8, 0.6, 0.4}}, {"absorption", {0.1, 0.2, 0.4}}, {"g", 0.7}}),
+         {}});
     all.push_back({"tinted puffs", scene_of(cloud(200, 3, 0.6), lamps(2)), {}});
     Json hazy = cloud(200, 4);
     hazy.push_back(constant(0.02));
-    hazy.push_back({{"type", "exponential"}, {"value", 0.05}, {"falloff", 0.5}, {"direction", {0, 1, 0}}, {"origin", {0, -2, 0}}});
+    hazy.push_back(
+        {{"type", "exponential"}, {"value", 0.05}, {"falloff", 0.5}, {"direction", {0, 1, 0}}, {"origin", {0, -2, 0}}});
     all.push_back({"puffs in haze", scene_of(hazy, lamps(2)), {}});
     const Json sun{{"type", "directional"}, {"direction", {0.3, -1, 0.2}}, {"intensity", 3}, {"distance", 5}};
     all.push_back({"sun", scene_of(cloud(300, 5), Json::array({sun})), {}});
-    const Json spot{{"type", "spot"}, {"position", {-3, 4, -7}}, {"direction", {0.5, -0.8, -0.2}}, {"angle", 40}, {"penumbra", 0.4}, {"intensity", 60}};
+    const Json spot{{"type", "spot"}, {"position", {-3, 4, -7}}, {"direction", {0.5, -0.8, -0.2}},
+                    {"angle", 40},    {"penumbra", 0.4},         {"intensity", 60}};
     all.push_back({"spot", scene_of(cloud(300, 6), Json::array({spot})), {}});
     Json inside = cloud(200, 7);
     for (Json &g : inside)
@@ -113,7 +121,8 @@ TEST(AirlightMaps, AgreeWithNodes)
     for (const NamedScene &s : clouds()) {
         const Picture exact = airlight_of(cpu(), with(with(s.scene, "tier", "nodes"), "max_error", 0.0005), frame);
         const Errors e = errors(airlight_of(cpu(), with(s.scene, "tier", "maps"), frame), exact),
-                     fine = errors(airlight_of(cpu(), with(with(s.scene, "tier", "maps"), "max_error", 0.001), frame), exact);
+                     fine =
+                         errors(airlight_of(cpu(), with(with(s.scene, "tier", "maps"), "max_error", 0.001), frame), exact);
         report(s.name, e);
         report("  max_error .001", fine);
         // These Gaussians are a few pixels wide, so that their cells are pixels: the rims of the cloud are what is left.
@@ -132,8 +141,8 @@ TEST(AirlightMaps, GpuAgainstCpu)
         const Json scene = with(s.scene, "tier", "maps");
         const Errors e = errors(airlight_of(backend("gl"), scene, frame), airlight_of(cpu(), scene, frame));
         report(s.name, e);
-        // GPUs give the fraction of a bilinear fetch 8 bits. On the CPU the pixels side by side halve a step together, so around a
-        // lamp some have finer steps there.
+        // GPUs give the fraction of a bilinear fetch 8 bits. On the CPU the pixels side by side halve a step together, so
+        // around a lamp some have finer steps there.
         EXPECT_LT(e.p95, 1e-3) << s.name;
         EXPECT_LT(e.worst, 0.1) << s.name << " at " << e.x << ", " << e.y;
     }
@@ -207,7 +216,8 @@ TEST(AirlightMaps, ErrorEstimateBoundsTheError)
     std::vector<double> excess;
     for (const NamedScene &s : clouds()) {
         const Picture exact = airlight_of(cpu(), with(with(s.scene, "tier", "nodes"), "max_error", 0.0005), frame);
-        const Result r = run(cpu(), with(s.scene, "tier", "maps").dump(), frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}});
+        const Result r = run(cpu(), with(s.scene, "tier", "maps").dump(), frame.color, frame.depth,
+                             Options{{}, {"airlight", "airlight_error"}});
         int here = 0, of = 0;
         for (size_t i = 0; i < exact.data.size(); ++i) {
             const double error = std::abs(double(r.airlight.data[i]) - double(exact.data[i]));

@@ -29,48 +29,39 @@ constexpr int widest = 8192;  // of the grid's images
 constexpr uint32_t fewest_gaussians = 32;
 constexpr double least_error = 0.005;
 
-constexpr brume_slot attenuation_slots[] = {fetch("gaussians"),          fetch("cells"),  fetch("cell_gaussians"), fetch("shadow_origins"),
-                                            fetch("attenuation_frames"), fetch("lights"), write("result")};
+constexpr brume_slot attenuation_slots[] = {
+    fetch("gaussians"),          fetch("cells"),  fetch("cell_gaussians"), fetch("shadow_origins"),
+    fetch("attenuation_frames"), fetch("lights"), write("result")};
 static_assert(std::size(attenuation_slots) == maps::attenuation::slot_count);
 
-constexpr brume_slot density_slots[] = {fetch("gaussians"), fetch("tiles"), fetch("tile_gaussians"), fetch("slices"), write("result")};
+constexpr brume_slot density_slots[] = {fetch("gaussians"), fetch("tiles"), fetch("tile_gaussians"), fetch("slices"),
+                                        write("result")};
 static_assert(std::size(density_slots) == maps::density::slot_count);
 
 constexpr brume_slot lights_slots[] = {fetch("attenuation"), fetch("attenuation_frames"), fetch("lights"), fetch("slices"),
                                        write("result")};
 static_assert(std::size(lights_slots) == maps::lights::slot_count);
 
-constexpr brume_slot gather_slots[] = {fetch("depth"),         fetch("gaussian_density"),
-                                       fetch("slices"),        linear("grid_density"),
-                                       linear("grid_lights"),  fetch("lights"),
-                                       fetch("environment"),   fetch("environment_table"),
-                                       fetch("surroundings"),
-                                       fetch("light_shadows"), fetch("shadow_0"),
-                                       fetch("shadow_1"),      fetch("shadow_2"),
-                                       fetch("shadow_3"),      fetch("previous"),
-                                       fetch("previous_error"), write("radiance"),
-                                       write("error"),         write("distances")};
+constexpr brume_slot gather_slots[] = {fetch("depth"),          fetch("gaussian_density"),  fetch("slices"),
+                                       linear("grid_density"),  linear("grid_lights"),      fetch("lights"),
+                                       fetch("environment"),    fetch("environment_table"), fetch("surroundings"),
+                                       fetch("light_shadows"),  fetch("shadow_0"),          fetch("shadow_1"),
+                                       fetch("shadow_2"),       fetch("shadow_3"),          fetch("previous"),
+                                       fetch("previous_error"), write("radiance"),          write("error"),
+                                       write("distances")};
 static_assert(std::size(gather_slots) == maps::gather::slot_count);
 
-constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, grid, size),
-                                              BRUME_CONSTANT_OF(Constants, grid, columns),
-                                              BRUME_CONSTANT_OF(Constants, grid, rows),
-                                              BRUME_CONSTANT_OF(Constants, grid, cell),
-                                              BRUME_CONSTANT_OF(Constants, grid, slices),
-                                              BRUME_CONSTANT_OF(Constants, grid, across),
-                                              BRUME_CONSTANT_OF(Constants, grid, side),
-                                              BRUME_CONSTANT_OF(Constants, grid, nodes),
-                                              BRUME_CONSTANT_OF(Constants, grid, mapped),
-                                              BRUME_CONSTANT_OF(Constants, grid, gaussians),
-                                              BRUME_CONSTANT_OF(Constants, grid, tinted),
-                                              BRUME_CONSTANT_OF(Constants, grid, grey),
-                                              BRUME_CONSTANT_OF(Constants, grid, angle),
-                                              BRUME_CONSTANT_OF(Constants, grid, depth),
-                                              BRUME_CONSTANT_OF(Constants, grid, doubt),
-                                              BRUME_AIRLIGHT_SETTINGS(Constants),
-                                              BRUME_CONSTANT(Constants, light_range),
-                                              BRUME_CONSTANT(Constants, reduction),
-                                              BRUME_CONSTANT(Constants, first_row)};
+constexpr brume_constant constants_table[] = {
+    BRUME_CONSTANT_OF(Constants, grid, size),   BRUME_CONSTANT_OF(Constants, grid, columns),
+    BRUME_CONSTANT_OF(Constants, grid, rows),   BRUME_CONSTANT_OF(Constants, grid, cell),
+    BRUME_CONSTANT_OF(Constants, grid, slices), BRUME_CONSTANT_OF(Constants, grid, across),
+    BRUME_CONSTANT_OF(Constants, grid, side),   BRUME_CONSTANT_OF(Constants, grid, nodes),
+    BRUME_CONSTANT_OF(Constants, grid, mapped), BRUME_CONSTANT_OF(Constants, grid, gaussians),
+    BRUME_CONSTANT_OF(Constants, grid, tinted), BRUME_CONSTANT_OF(Constants, grid, grey),
+    BRUME_CONSTANT_OF(Constants, grid, angle),  BRUME_CONSTANT_OF(Constants, grid, depth),
+    BRUME_CONSTANT_OF(Constants, grid, doubt),  BRUME_AIRLIGHT_SETTINGS(Constants),
+    BRUME_CONSTANT(Constants, light_range),     BRUME_CONSTANT(Constants, reduction),
+    BRUME_CONSTANT(Constants, first_row)};
 
 template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
 {
@@ -81,9 +72,9 @@ template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot 
 
 bool is_tinted(const brume_plugin_scene &scene)
 {
-    return !scene.gaussians || std::any_of(scene.gaussians, scene.gaussians + scene.gaussian_count, [](const brume_plugin_gaussian &g) {
-        return g.color[0] != 1 || g.color[1] != 1 || g.color[2] != 1;
-    });
+    return !scene.gaussians ||
+           std::any_of(scene.gaussians, scene.gaussians + scene.gaussian_count,
+                       [](const brume_plugin_gaussian &g) { return g.color[0] != 1 || g.color[1] != 1 || g.color[2] != 1; });
 }
 
 int corners(int size, int cell)
@@ -94,8 +85,8 @@ int corners(int size, int cell)
 maps::Sizes sizes_for(const brume_plugin_request &request, const State &state)
 {
     const Parameters &p = state.parameters;
-    return maps::sizes_of(*request.scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, is_tinted(*request.scene),
-                          maps::fineness_of(p.max_error), uint64_t(p.memory * 1e6));
+    return maps::sizes_of(*request.scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1,
+                          is_tinted(*request.scene), maps::fineness_of(p.max_error), uint64_t(p.memory * 1e6));
 }
 
 ivec2 grid_size(const GridSettings &s)
@@ -118,7 +109,8 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
                                 pass_text("airlight_map_lights.comp"), "", rows.lights, m.lights_pass))
         return s;
     return create(services, host, pass("gather", gather_slots, 4), "airlight_map_gather.comp",
-                  pass_text("airlight_map_gather.comp"), define("ESTIMATE", state.error != nullptr), rows.gather, m.gather_pass);
+                  pass_text("airlight_map_gather.comp"), define("ESTIMATE", state.error != nullptr), rows.gather,
+                  m.gather_pass);
 }
 
 }  // namespace
@@ -133,7 +125,8 @@ double mapped_operations(const brume_plugin_request &request, const State &state
 {
     const maps::Sizes sizes = sizes_for(request, state);
     // Orders beyond the first go pixel by pixel.
-    const double lights = request.scene->light_count * (state.parameters.orders == Orders::all ? 20 : 1), gaussians = request.scene->gaussian_count,
+    const double lights = request.scene->light_count * (state.parameters.orders == Orders::all ? 20 : 1),
+                 gaussians = request.scene->gaussian_count,
                  pixels = double(state.width) * state.height / (state.parameters.reduction * state.parameters.reduction),
                  side = maps::fineness_of(state.parameters.max_error).side, of_list = 40 * std::sqrt(1 + 0.1 * gaussians),
                  points = double(corners(state.width, sizes.cell)) * corners(state.height, sizes.cell);
@@ -161,13 +154,14 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     s.nodes = fineness.nodes;
     s.tinted = tinted;
     const brume_plugin_medium &medium = *scene.medium;
-    auto grey = [](const float (&v)[3]) { return v[0] == v[1] && v[1] == v[2]; };
+    auto grey = [](const float(&v)[3]) { return v[0] == v[1] && v[1] == v[2]; };
     s.grey = grey(medium.scattering) && grey(medium.absorption);
     s.angle = float(fineness.angle * std::clamp(1.5 * (1 - std::abs(double(medium.asymmetry))), 0.2, 1.0));
     s.depth = float(fineness.depth);
     s.doubt = float(fineness.doubt);
     const uint64_t map_bytes = uint64_t(s.side) * uint64_t(s.side) * uint64_t(s.nodes) * 4;
-    const int room = std::clamp(int(most_map_bytes / map_bytes), maps::lights_at_once, std::min(most_kept_maps, 16384 / s.side));
+    const int room =
+        std::clamp(int(most_map_bytes / map_bytes), maps::lights_at_once, std::min(most_kept_maps, 16384 / s.side));
     m.kept = std::clamp(int(scene.light_count), maps::lights_at_once, room);
 
     auto image = [&](const char *label, ivec2 size, int32_t channels, brume_plugin_image &out) {
@@ -191,10 +185,11 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
         return services.add_entry(host, &e);
     };
     const double lights = scene.light_count, points = double(grid_size(s).x) * grid_size(s).y;
-    if (brume_status e = entry("maps",
-                               std::to_string(s.side) + " x " + std::to_string(s.side) + " directions, " + std::to_string(s.nodes) +
-                                   " distances around each light, when a light or the medium moved",
-                               lights * double(map_bytes), 0))
+    if (brume_status e =
+            entry("maps",
+                  std::to_string(s.side) + " x " + std::to_string(s.side) + " directions, " + std::to_string(s.nodes) +
+                      " distances around each light, when a light or the medium moved",
+                  lights * double(map_bytes), 0))
         return e;
     if (brume_status e = entry("grid",
                                "cells of " + std::to_string(s.cell) + " px, " + std::to_string(s.slices) + " distances, " +
@@ -220,7 +215,8 @@ void place_frames(const brume_plugin_scene &scene, const ShadowLists &lists, std
         double near = 1e30, far = -1e30;
         for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
             const Gaussian g = gaussian_of(scene.gaussians[i]);
-            const double reach = gaussian_reach(medium, g), at = parallel ? dot(direction, g.center) : length(g.center - position);
+            const double reach = gaussian_reach(medium, g),
+                         at = parallel ? dot(direction, g.center) : length(g.center - position);
             near = std::min(near, at - reach);
             far = std::max(far, at + reach);
         }
@@ -238,7 +234,8 @@ void place_frames(const brume_plugin_scene &scene, const ShadowLists &lists, std
 
 }  // namespace
 
-brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved, State &state)
+brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,
+                          State &state)
 {
     Maps &m = state.maps;
     maps::place_slices(scene, m.settings.slices, m.values);
@@ -247,7 +244,8 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
     if (scene.light_count == 0)
         return BRUME_OK;
     place_frames(scene, state.lists, m.values);
-    if (brume_status s = services.upload(host, upload_attenuation_frames, 4, m.values.data(), m.values.size() / 4, &m.frames))
+    if (brume_status s =
+            services.upload(host, upload_attenuation_frames, 4, m.values.data(), m.values.size() / 4, &m.frames))
         return s;
     m.settings.gaussians = int(scene.gaussian_count);
     m.maps_pending = m.maps_pending || moved;
@@ -303,7 +301,8 @@ brume_status Run::maps_of(int first, int last)
     images[frames] = maps_.frames;
     images[maps::attenuation::lights] = product(product_lights);
     images[result] = maps_.attenuation;
-    return services_.run(host_, maps_.attenuation_pass, images, &constants, constants.grid.side, constants.grid.side * (last - first), nullptr);
+    return services_.run(host_, maps_.attenuation_pass, images, &constants, constants.grid.side,
+                         constants.grid.side * (last - first), nullptr);
 }
 
 brume_status Run::density()
@@ -315,7 +314,8 @@ brume_status Run::density()
     images[tile_gaussians] = product(product_gaussians, 2);
     images[slices] = maps_.slices;
     images[result] = maps_.density;
-    return services_.run(host_, maps_.density_pass, images, &constants_, constants_.grid.columns, constants_.grid.rows, nullptr);
+    return services_.run(host_, maps_.density_pass, images, &constants_, constants_.grid.columns, constants_.grid.rows,
+                         nullptr);
 }
 
 brume_status Run::lights(int first, int last)
@@ -400,8 +400,13 @@ brume_status gather_by_maps(const brume_services &services, brume_host host, con
         now.radiance = ours ? wanted.radiance : m.radiance;
         now.error = !wanted.error ? nullptr : ours ? wanted.error : m.error;
         now.environment = wanted.environment && round == 0;
-        if (brume_status s = run.gather(now, round == 0 ? nullptr : ours ? m.radiance : wanted.radiance,
-                                        round == 0 || !wanted.error ? nullptr : ours ? m.error : wanted.error))
+        if (brume_status s = run.gather(now,
+                                        round == 0 ? nullptr
+                                        : ours     ? m.radiance
+                                                   : wanted.radiance,
+                                        round == 0 || !wanted.error ? nullptr
+                                        : ours                      ? m.error
+                                                                    : wanted.error))
             return s;
     }
     return BRUME_OK;

@@ -19,8 +19,8 @@ struct Maps {
     brume::maths_float::GridSettings settings{};
     int kept = 0;  // maps that there is room for
     brume_plugin_image attenuation = nullptr;
-    brume_plugin_image density = nullptr;  // grid_density
-    brume_plugin_image lights = nullptr;   // grid_lights
+    brume_plugin_image density = nullptr;                    // grid_density
+    brume_plugin_image lights = nullptr;                     // grid_lights
     brume_plugin_image radiance = nullptr, error = nullptr;  // of the lights so far, in turn with State's
     brume_pass attenuation_pass = nullptr;
     brume_pass density_pass = nullptr;
@@ -46,7 +46,8 @@ double mapped_operations(const brume_plugin_request &request, const State &state
 brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state);
 
 // Of a frame whose lights, Gaussians or camera moved, after the lists of shadow_lists.h. moved: not the camera alone.
-brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved, State &state);
+brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,
+                          State &state);
 
 // The airlight of the lights [first, last) into an image.
 struct MappedGather {

@@ -24,8 +24,8 @@ const Constants &constants_of(const brume_plugin_rows &call)
 bool needs_pixels(const Constants &constants)
 {
     const auto &shadowed = constants.airlight.shadowed;
-    return constants.estimate || constants.airlight.orders != scalar::orders_single || shadowed.x || shadowed.y || shadowed.z ||
-           shadowed.w || constants.grid.cell < 2 * constants.reduction;
+    return constants.estimate || constants.airlight.orders != scalar::orders_single || shadowed.x || shadowed.y ||
+           shadowed.z || shadowed.w || constants.grid.cell < 2 * constants.reduction;
 }
 
 brume_status gather_pixels(const brume_plugin_rows *call, int32_t first, int32_t last)

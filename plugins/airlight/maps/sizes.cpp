@@ -42,7 +42,8 @@ Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least
     const double cell = std::clamp(deviation * fineness.cell, 1.0, std::max(1.0, width / 60.0));
     sizes.cell = std::max(1 << int(std::floor(std::log2(cell))), least_cell);
     auto bytes = [&] {
-        const uint64_t columns = uint64_t((width + sizes.cell - 1) / sizes.cell + 1), rows = uint64_t((height + sizes.cell - 1) / sizes.cell + 1);
+        const uint64_t columns = uint64_t((width + sizes.cell - 1) / sizes.cell + 1),
+                       rows = uint64_t((height + sizes.cell - 1) / sizes.cell + 1);
         return columns * rows * uint64_t(sizes.slices + 1) * (tinted ? 32 : 20);
     };
     while ((sizes.bytes = bytes()) > most_bytes && sizes.cell < std::max(width, height))

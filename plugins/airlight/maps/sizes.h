@@ -9,8 +9,8 @@ namespace airlight::maps {
 constexpr int most_slices = 384;
 
 struct Fineness {
-    double cell;      // of a Gaussian's deviation
-    double steps;     // per radius of a Gaussian
+    double cell;   // of a Gaussian's deviation
+    double steps;  // per radius of a Gaussian
     int least_slices;
     int side, nodes;  // of the attenuation maps
     double angle;     // [rad]
@@ -20,10 +20,10 @@ struct Fineness {
 Fineness fineness_of(double max_error);
 
 struct Sizes {
-    int cell;     // [px]
+    int cell;  // [px]
     int slices;
     uint64_t bytes;
-    bool fine;    // as fine as the Gaussians want it
+    bool fine;  // as fine as the Gaussians want it
 };
 // tinted: some Gaussian has a colour. most_bytes: of the grid. scene.gaussians may be NULL: then of a usual medium.
 Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least_cell, bool tinted, const Fineness &fineness,

@@ -104,7 +104,9 @@ void place_slices(const brume_plugin_scene &scene, int slices, std::vector<float
     const bool terms = has_terms(scene);
     distances.assign(1, 0.0f);
     auto add = [&](double t) { distances.push_back(std::nextafter(std::max(float(t), distances.back()), 1e30f)); };
-    const int before = p.from <= 0 ? 0 : terms ? std::min(before_gaussians, slices / 4) : 1,
+    const int before = p.from <= 0 ? 0
+                       : terms     ? std::min(before_gaussians, slices / 4)
+                                   : 1,
               behind = terms ? std::min(behind_gaussians, slices / 4) : 0, among = slices - before - behind;
     for (int k = 1; k <= before; ++k)
         add(p.from * k / before);

@@ -11,8 +11,8 @@ namespace airlight::maps {
 // How many steps the scene would have.
 int wanted_slices(const brume_plugin_scene &scene, const Fineness &fineness);
 
-// slices + 1 distances [m], the first 0: as dense as the Gaussians they pass are small, and before and behind those, where the
-// medium has constant or exponential terms, in growing steps.
+// slices + 1 distances [m], the first 0: as dense as the Gaussians they pass are small, and before and behind those, where
+// the medium has constant or exponential terms, in growing steps.
 void place_slices(const brume_plugin_scene &scene, int slices, std::vector<float> &distances);
 
 }  // namespace airlight::maps
