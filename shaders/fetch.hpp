@@ -124,21 +124,9 @@ PURE real fetch_bicubic_channel(sampler2D image, IN(Region) region, vec2 positio
 }
 
 // lib/grid_fetch.glsl.
-PURE sampler2D part_of(sampler2D image, ivec2 corner, Texture &part)
-{
-    part = image;
-    part.data += corner.y * image.row_stride + int64_t(corner.x) * image.channels;
-    return part;
-}
-
 PURE vec4 grid_fetch(sampler2D image, ivec2 corner, ivec2 size, vec2 position)
 {
-    Texture part;
-    return fetch_linear(part_of(image, corner, part), Region{size, 0}, clamp(position, vec2(real(0)), vec2(size - 1)));
-}
-
-PURE real grid_fetch_one(sampler2D image, ivec2 corner, ivec2 size, vec2 position)
-{
-    Texture part;
-    return fetch_linear_channel(part_of(image, corner, part), Region{size, 0}, clamp(position, vec2(real(0)), vec2(size - 1)), 0);
+    Texture part = image;
+    part.data = texel_at(image, corner.x, corner.y);
+    return fetch_linear(part, Region{size, 0}, clamp(position, vec2(real(0)), vec2(size - 1)));
 }

@@ -64,7 +64,7 @@ private:
     double gather_operations() const;
     brume_status plan_gather();
     const char *why_unlit(bool dense) const;
-    bool choose_maps() const;
+    bool takes_maps(const MapsOffer &offer, double other_operations) const;
 
     const brume_services &services_;
     brume_host host_;
@@ -81,7 +81,7 @@ brume_status Planner::check_tier()
     const auto &m = *scene_.medium;
     if (tier == Tier::reference && request_.backend != BRUME_BACKEND_CPU)
         return fail("tier: reference on OpenGL; expected nodes, or the CPU, on which alone references run");
-    if (tier != Tier::sun && tier != Tier::fogshop)
+    if (!is_published(tier))
         return BRUME_OK;
     const std::string name = tier == Tier::sun ? "sun" : "fogshop";
     if (tier == Tier::sun && (m.term_count > 0 || scene_.gaussian_count > 0))
@@ -113,7 +113,7 @@ brume_status Planner::plan_shadows()
     if (shadowed_lights(scene_) > most_shadow_maps)
         return fail("lights: " + count + " with a shadow map; expected at most " + std::to_string(most_shadow_maps));
     const Tier tier = state_->parameters.tier;
-    if (tier == Tier::sun || tier == Tier::fogshop)
+    if (is_published(tier))
         return fail(std::string("tier: ") + (tier == Tier::sun ? "sun" : "fogshop") +
                     " with a shadow map; expected tier nodes: the published tiers know no shadows");
     state_->shadowed = true;
@@ -142,7 +142,7 @@ double Planner::gather_operations() const
     const Parameters &p = state_->parameters;
     const double lights = scene_.light_count;
     const Encounters met = encounters(scene_, state_->width, state_->height);
-    if (p.tier == Tier::fogshop || p.tier == Tier::sun)
+    if (is_published(p.tier))
         return 100 + 150 * lights + met.of_sight * (100 + 150 * lights);
     const int finer = p.max_error > 0.05 ? 0 : p.max_error >= 0.005 ? 1 : 2;
     constexpr double of_terms[] = {1, 1.2, 1.5}, of_gaussians[] = {1, 2.3, 5};
@@ -159,15 +159,12 @@ double Planner::gather_operations() const
 
 // Maps serve many Gaussians; where there are few, nodes are both nearer and faster. Where the grid cannot be as fine as the
 // Gaussians are small, they are not taken unasked.
-bool Planner::choose_maps() const
+bool Planner::takes_maps(const MapsOffer &offer, double other_operations) const
 {
-    const Tier tier = state_->parameters.tier;
     if (scene_.gaussian_count == 0 || scene_.light_count == 0)
         return false;
-    if (tier != Tier::automatic)
-        return tier == Tier::maps;
-    const double pixels = double(state_->width) * state_->height / (state_->parameters.reduction * state_->parameters.reduction);
-    return maps_suit(request_, *state_) && 2 * mapped_operations(request_, *state_) < pixels * gather_operations();
+    const Tier tier = state_->parameters.tier;
+    return tier == Tier::maps || (tier == Tier::automatic && offer.suits && 2 * offer.operations < other_operations);
 }
 
 brume_status Planner::plan_gather()
@@ -199,17 +196,18 @@ brume_status Planner::plan_gather()
     }
     if (brume_status s = plan_tables(services_, host_, scene_, state))
         return s;
-    if (choose_maps()) {
-        state.maps.used = true;
-        if (brume_status s = plan_maps(services_, host_, request_, state))
+    const double pixels = double(width) * height;
+    const double operations = pixels * gather_operations();
+    const MapsOffer maps = offer_maps(request_, state);
+    state.maps.used = takes_maps(maps, operations);
+    if (state.maps.used)
+        if (brume_status s = plan_maps(services_, host_, scene_, maps.sizes, state))
             return s;
-    }
     state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
     if (state.has_blobs)
         if (brume_status s = entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved",
                                    0, 0))
             return s;
-    const double pixels = double(width) * height;
     return entry(
         true, "gather",
         std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
@@ -220,7 +218,7 @@ brume_status Planner::plan_gather()
                  : " scattered once") +
             (state.shadowed ? ", in the shadows of solid things" : "") +
             (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
-        pixels * (4 + 16), state.maps.used ? mapped_operations(request_, state) : pixels * gather_operations());
+        pixels * (4 + 16), state.maps.used ? maps.operations : operations);
 }
 
 const char *Planner::why_unlit(bool dense) const
@@ -295,7 +293,7 @@ brume_status settle(const brume_services *services, brume_host host, const brume
     const Parameters p = read_parameters(values);
     if (p.orders != Orders::automatic)
         return BRUME_OK;
-    const bool able = p.tier != Tier::fogshop && p.tier != Tier::sun;
+    const bool able = !is_published(p.tier);
     const bool beside = services->made(host, "attenuated_radiance") == BRUME_MADE_EARLIER &&
                         services->made(host, "density_rgb") != BRUME_MADE_EARLIER;
     settle_orders(values, able && beside && scattered_on_the_way(*request->scene, request->width, request->height) > p.max_error
@@ -309,7 +307,7 @@ uint32_t makes_with(const double *values, uint32_t index)
 {
     const Parameters p = read_parameters(values);
     return made[index] != std::string_view("all_scattering") ||
-           (p.orders == Orders::all && p.tier != Tier::fogshop && p.tier != Tier::sun);
+           (p.orders == Orders::all && !is_published(p.tier));
 }
 
 }  // namespace

@@ -6,6 +6,12 @@
 namespace airlight {
 
 enum class Tier { nodes, fogshop, sun, reference, maps, automatic };
+// Zhou et al. and Sun et al. as published: they know neither shadows nor light that scatters twice.
+constexpr bool is_published(Tier tier)
+{
+    return tier == Tier::fogshop || tier == Tier::sun;
+}
+
 enum class Orders { single, all, automatic };
 enum class Ground { none, y, z, automatic };
 

@@ -4,41 +4,24 @@
 // A step between two slices takes two fetches, however many Gaussians there are. Its mass is exact for them all; 1 / d^2 is
 // integrated in closed form, and steps that the lights' angle or depth changes much over are halved.
 
-// Between the corners around a place: of every `stride`th corner, 1 or 2.
+// A slice at a place, between every `stride`th corner, 1 or 2.
 PURE vec4 grid_between(sampler2D image, IN(GridSettings) s, int stride, int slice, vec2 place)
 {
-    ivec2 size = ivec2(s.columns, s.rows);
     ivec2 corner = grid_corner(s, slice);
+    ivec2 size = ivec2(s.columns, s.rows);
     if (stride == 1)
         return grid_fetch(image, corner, size, place);
     vec2 first = vec2(floor(place.x * R(0.5)) * R(2.0), floor(place.y * R(0.5)) * R(2.0));
     vec2 f = R(0.5) * (place - first);
-    vec4 top = grid_fetch(image, corner, size, first) * (R(1.0) - f.x) + grid_fetch(image, corner, size, first + vec2(R(2.0), R(0.0))) * f.x;
-    vec4 bottom = grid_fetch(image, corner, size, first + vec2(R(0.0), R(2.0))) * (R(1.0) - f.x) +
-                  grid_fetch(image, corner, size, first + vec2(R(2.0), R(2.0))) * f.x;
+    vec2 right = vec2(R(2.0), R(0.0));
+    vec2 down = vec2(R(0.0), R(2.0));
+    vec4 top = grid_fetch(image, corner, size, first) * (R(1.0) - f.x) + grid_fetch(image, corner, size, first + right) * f.x;
+    vec4 bottom = grid_fetch(image, corner, size, first + down) * (R(1.0) - f.x) +
+                  grid_fetch(image, corner, size, first + down + right) * f.x;
     return top * (R(1.0) - f.y) + bottom * f.y;
 }
 
-// Of an image of one channel, in all of them; stride as above.
-PURE vec4 grid_between_one(sampler2D image, IN(GridSettings) s, int stride, int slice, vec2 place)
-{
-    if (stride == 1)
-        return vec4(grid_fetch_one(image, grid_corner(s, slice), ivec2(s.columns, s.rows), place));
-    ivec2 size = ivec2(s.columns, s.rows);
-    ivec2 corner = grid_corner(s, slice);
-    vec2 first = vec2(floor(place.x * R(0.5)) * R(2.0), floor(place.y * R(0.5)) * R(2.0));
-    vec2 f = R(0.5) * (place - first);
-    float top = mix(grid_fetch_one(image, corner, size, first), grid_fetch_one(image, corner, size, first + vec2(R(2.0), R(0.0))), f.x);
-    float bottom = mix(grid_fetch_one(image, corner, size, first + vec2(R(0.0), R(2.0))),
-                       grid_fetch_one(image, corner, size, first + vec2(R(2.0), R(2.0))), f.x);
-    return vec4(mix(top, bottom, f.y));
-}
-
 const int grid_halvings = 4;
-PURE float at_light(vec4 of_lights, int i)
-{
-    return i == 0 ? of_lights.x : i == 1 ? of_lights.y : i == 2 ? of_lights.z : of_lights.w;
-}
 
 // Nodes at equal angles from a light at height h above the ray's point `foot`: which x between a and b halves the angle.
 PURE float halfway(float h, float a, float b)
@@ -82,12 +65,6 @@ PURE vec3 grid_mean_exponential(IN(GridSettings) s, vec3 tau)
     return vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
 }
 
-// Lights at the end of all numbers: what is not a number does not light.
-PURE float lit_or_dark(float x)
-{
-    return choose(is_finite(x), x, R(0.0));
-}
-
 // Beyond this no light shows.
 const float farthest_light = R(1e15);
 
@@ -129,8 +106,7 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
         float to = max(min(next, distance), from);
         float width = to - from;
         float share = width / (next - from);
-        vec4 next_density = s.tinted == 1 ? grid_between(grid_density, s, stride, slice, place)
-                                          : grid_between_one(grid_density, s, stride, slice, place);
+        vec4 next_density = grid_between(grid_density, s, stride, slice, place);
         vec4 next_lights = grid_between(grid_lights, s, stride, slice, place);
         float next_terms = density_integral(medium, direction, to);
         float of_terms = max(next_terms - terms, R(0.0));
@@ -148,45 +124,54 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
                 float h = height[i];
                 float d = light[i].type == light_directional ? R(1.0) : sqrt(h * h + a * a);
                 float e = light[i].type == light_directional ? R(1.0) : sqrt(h * h + b * b);
-                float density_a = at_light(of_lights, i);
-                float density_b = mix(density_a, at_light(next_lights, i), share);
+                float density_a = of_lights[i];
+                float density_b = mix(density_a, next_lights[i], share);
                 float angle = angle_of(h, a, b);
                 float turns = max(max(angle / s.angle, most * mass / s.depth), most * abs(density_b * e - density_a * d) / s.depth);
                 if (light[i].type == light_directional)
                     turns = max(most * mass / s.depth, most * abs(density_b - density_a) / s.depth);
-                int halvings = 0;
-                for (int n = 1; n <= grid_halvings && some(turns > R(1.0)); ++n) {
-                    turns *= R(0.5);
-                    halvings = n;
+                // Pixels side by side go as far as any of them needs; each takes its own steps, so that none depends on the others.
+                float halvings = R(0.0);
+                float nodes = R(1.0);
+                int most_halvings = 0;
+                for (int n = 1; n <= grid_halvings && some(turns > nodes); ++n) {
+                    Bool more = turns > nodes;
+                    halvings += choose(more, R(1.0), R(0.0));
+                    nodes *= choose(more, R(2.0), R(1.0));
+                    most_halvings = n;
                 }
-                int nodes = 1 << halvings;
-                float part = angle / float(nodes);
-                for (int j = 0; j < nodes; ++j) {
+                float part = angle / nodes;
+                for (int j = 0; j < 1 << most_halvings; ++j) {
                     float low = a;
                     float high = b;
                     float middle = halfway(h, low, high);
-                    for (int n = halvings - 1; n >= 0; --n) {
-                        if (((j >> n) & 1) == 1)
-                            low = middle;
-                        else
-                            high = middle;
+                    for (int n = most_halvings - 1; n >= 0; --n) {
+                        Bool halved = float(n) < halvings;
+                        bool upper = ((j >> n) & 1) == 1;
+                        low = choose(halved, upper ? middle : low, low);
+                        high = choose(halved, upper ? high : middle, high);
                         middle = halfway(h, low, high);
                     }
                     float t = clamp(aspect[i].foot + middle, from, to);
                     float x = t - aspect[i].foot;
                     // dt of the node's part of the angle.
-                    float weight = lit_or_dark(min((h * h + x * x) / h * part, width));
+                    float weight = choose(float(j) < nodes, or_zero(min((h * h + x * x) / h * part, width)), R(0.0));
                     float along = (t - from) / max(width, R(1e-30));
                     vec3 point = t * direction;
                     float far = light[i].type == light_directional ? R(1.0) : length(point - light[i].position);
-                    float gaussians = lit_or_dark(mix(density_a, density_b, along) * far);
+                    float gaussians = or_zero(mix(density_a, density_b, along) * far);
                     float depth = clamp(gaussians + terms_to_light(medium, light[i], point), R(0.0), density_limit);
-                    float strength = lit_or_dark(lit_strength(medium, light[i], aspect[i], direction, t)) *
+                    float strength = or_zero(lit_strength(medium, light[i], aspect[i], direction, t)) *
                                      MAPPED_SHARE(i, low + aspect[i].foot, high + aspect[i].foot);
                     vec3 arriving = min(strength * light[i].intensity, vec3(radiance_limit)) * grid_transmittance(medium, s, depth);
                     MAPPED_ORDERS(i, t, depth)
                     // Of halved steps each part has its own transmittance to the camera.
-                    vec3 source = nodes == 1 ? whole : scattering * grid_transmittance(medium, s, before + mass * along);
+                    vec3 source = whole;
+                    if (most_halvings > 0) {
+                        vec3 there = scattering * grid_transmittance(medium, s, before + mass * along);
+                        Bool halved = nodes > R(1.0);
+                        source = vec3(choose(halved, there.x, whole.x), choose(halved, there.y, whole.y), choose(halved, there.z, whole.z));
+                    }
                     vec3 amount = min(source * weight, vec3(radiance_limit));
                     total += min(arriving * amount, vec3(radiance_limit));
                 }

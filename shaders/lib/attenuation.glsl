@@ -6,8 +6,7 @@
 //   attenuation_frames  3 texels per light: 0, 1  directional: the map's axes across the light, as texels 0 and 1 of
 //                       shadow_origins; 2  x the distance of node 0 and y that of the last; of directional lights along them
 //
-// Depths and not transmittances: they serve every colour, are exact where the medium is homogeneous, and never ring.
-// Sixteen coefficients of a cosine transform (the paper's) are told from this by attenuation_bases in tests/bench.
+// Depths and not the paper's sixteen cosine coefficients of transmittances: they serve every colour and never ring.
 
 struct AttenuationFrame {
     vec4 u;
@@ -32,16 +31,22 @@ PURE vec3 attenuation_place(IN(Camera) camera, IN(AttenuationFrame) frame, IN(Li
     return vec3(square.x, square.y, length(d));
 }
 
-// int rho dt of the Gaussians between the light and the point, over `extent` of it: the distance, of directional lights 1. A mean
-// density is smooth where the light stands inside a Gaussian, and an integral is not.
+// Lights may stand at the end of all numbers.
+PURE float or_zero(float x)
+{
+    return choose(is_finite(x), x, R(0.0));
+}
+
+// int rho dt of the Gaussians between the light and the point, over their distance; of directional lights itself. A mean density is
+// smooth where the light stands inside a Gaussian, and an integral is not.
 PURE float attenuation_density(IN(Camera) camera, IN(AttenuationFrame) frame, sampler2D attenuation, int side, int nodes, int index,
                                IN(Light) light, vec3 point)
 {
     vec3 place = attenuation_place(camera, frame, light, point);
     float most = float(side - 1);
-    float x = clamp(place.x, R(0.0), R(1.0)) * most;
-    float y = clamp(place.y, R(0.0), R(1.0)) * most;
-    float z = clamp((place.z - frame.near) / (frame.far - frame.near), R(0.0), R(1.0)) * float(nodes - 1);
+    float x = clamp(or_zero(place.x), R(0.0), R(1.0)) * most;
+    float y = clamp(or_zero(place.y), R(0.0), R(1.0)) * most;
+    float z = clamp(or_zero((place.z - frame.near) / (frame.far - frame.near)), R(0.0), R(1.0)) * float(nodes - 1);
     float left = min(floor(x), most - R(1.0));
     float top = min(floor(y), most - R(1.0));
     float node = min(floor(z), float(nodes - 2));

@@ -10,16 +10,8 @@ PURE vec4 grid_lights_texel(IN(Camera) camera, IN(GridSettings) s, sampler2D att
     vec3 point = distance * direction;
     for (int i = 0; i < last - first; ++i) {
         Light light = light_at(lights, first + i);
-        float density = attenuation_density(camera, attenuation_frame(attenuation_frames, first + i), attenuation, s.side, s.nodes,
-                                            first + i - s.mapped, light, point);
-        if (i == 0)
-            densities.x = density;
-        else if (i == 1)
-            densities.y = density;
-        else if (i == 2)
-            densities.z = density;
-        else
-            densities.w = density;
+        densities[i] = attenuation_density(camera, attenuation_frame(attenuation_frames, first + i), attenuation, s.side, s.nodes,
+                                           first + i - s.mapped, light, point);
     }
     return densities;
 }

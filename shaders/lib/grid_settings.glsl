@@ -2,7 +2,7 @@
 //
 // Its points lie on the corners of squares of `cell` pixels, at distances from the camera that all rays share ("slices"):
 //   slices         data, one channel: the distances, the first is 0
-//   grid_density   int rho dt of the Gaussians from the camera to there; tinted: x that, yzw of what scatters as red, green, blue
+//   grid_density   of the Gaussians from the camera to there: x int rho dt, yzw that of what scatters red, green and blue
 //   grid_lights    of four lights, attenuation_density() there
 // Slice k has its columns x rows texels from (k % across, k / across) times that on.
 
@@ -17,7 +17,6 @@ struct GridSettings {
     int nodes;       // and their distances
     int mapped;      // the light whose map is the first
     int gaussians;
-    int tinted;
     int grey;        // scattering and absorption have no colour
     float angle;     // [rad] and optical depth that a step may have, each way
     float depth;

@@ -21,7 +21,6 @@
 uniform Medium brume_medium;
 uniform Camera brume_camera;
 uniform GridSettings grid;
-uniform int first_row;
 uniform sampler2D gaussians;
 uniform sampler2D cells;
 uniform sampler2D cell_gaussians;
@@ -38,12 +37,11 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    int row = p.y + first_row;
-    int index = grid.mapped + row / grid.side;
+    int index = grid.mapped + p.y / grid.side;
     Light light = light_at(lights, index);
     AttenuationFrame frame = attenuation_frame(attenuation_frames, index);
     AttenuationRay ray =
-        attenuation_ray(brume_camera, frame, light, cells, shadow_origins, index, grid.side, ivec2(p.x, row % grid.side));
+        attenuation_ray(brume_camera, frame, light, cells, shadow_origins, index, grid.side, ivec2(p.x, p.y % grid.side));
     for (int k = 0; k < grid.nodes; k += together) {
         float distance[together];
         float sum[together];
@@ -63,6 +61,6 @@ void main()
         }
         for (int j = 0; j < together; ++j)
             if (k + j < grid.nodes)
-                imageStore(result, ivec2((k + j) * grid.side + p.x, row), vec4(clamp(sum[j], 0.0, density_limit), 0.0, 0.0, 1.0));
+                imageStore(result, ivec2((k + j) * grid.side + p.x, p.y), vec4(clamp(sum[j], 0.0, density_limit), 0.0, 0.0, 1.0));
     }
 }

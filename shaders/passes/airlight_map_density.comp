@@ -1,4 +1,3 @@
-// TINTED is set by the plan: some Gaussian has a colour.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"
@@ -54,11 +53,7 @@ void main()
             float depth = 0.886226925453 * profile_length(p);
             for (int j = 0; j < together; ++j) {
                 float part = column_part(depth, p.scale, p.middle, before, distance[j]);
-#if TINTED
                 sum[j] += part * vec4(1.0, g.colour);
-#else
-                sum[j].x += part;
-#endif
             }
         }
         for (int j = 0; j < together; ++j)

@@ -1,4 +1,4 @@
-// ESTIMATE and TINTED are set by the plan.
+// ESTIMATE, whether the error is wanted, is set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"

@@ -66,17 +66,7 @@ struct Measured {
 Measured measure(brume_context context, const Cloud &cloud, const View &view, const std::string &tier,
                  const std::string &resolution)
 {
-    Json lights = Json::array();
-    for (const Light &l : cloud.lights)
-        lights.push_back(
-            {{"type", "point"}, {"position", {l.position.x, l.position.y, l.position.z}}, {"intensity", l.intensity.x}});
-    const Json scene{{"brume", 1},
-                     {"camera",
-                      {{"vertical_fov", 2 * std::atan(half_tangent) * 57.29577951308232},
-                       {"camera_to_world", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}}},
-                     {"medium", {{"scattering", 1}}},
-                     {"lights", lights},
-                     {"effects", {{"airlight", {{"tier", tier}, {"resolution", resolution}}}}}};
+    const Json scene = cloud.scene({{"tier", tier}, {"resolution", resolution}});
     const fog::Options options{[&](brume_format &format) {
                                    format.display_x = -view.left();
                                    format.display_y = -view.top();

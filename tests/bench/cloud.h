@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "airlight_world.h"
 #include "fog.h"
 
@@ -66,6 +68,23 @@ struct Cloud {
             auto uniform = [&](float a, float b) { return a + (b - a) * float(random() % 65536u) / 65536.0f; };
             gaussians.push_back({vec3(uniform(-30, 30), uniform(-30, 30), uniform(10, 40)), 1 / radius, 0.2f, vec3(1)});
         }
+    }
+
+    // All but its Gaussians, for the airlight with these parameters.
+    nlohmann::ordered_json scene(const nlohmann::ordered_json &airlight) const
+    {
+        using Json = nlohmann::ordered_json;
+        Json listed = Json::array();
+        for (const Light &l : lights)
+            listed.push_back(
+                {{"type", "point"}, {"position", {l.position.x, l.position.y, l.position.z}}, {"intensity", l.intensity.x}});
+        return {{"brume", 1},
+                {"camera",
+                 {{"vertical_fov", 2 * std::atan(half_tangent) * 57.29577951308232},
+                  {"camera_to_world", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}}},
+                {"medium", {{"scattering", 1}}},
+                {"lights", listed},
+                {"effects", {{"airlight", airlight}}}};
     }
 
     void describe(brume_scene scene, brume_context context) const

@@ -32,17 +32,7 @@ void measure(const Asked &asked, int gaussians, int lights)
     brume_context context = asked.gl ? brume_context(*fog::gl()) : brume_context(fog::cpu());
     const Cloud cloud(gaussians, lights);
     const View view{asked.width, asked.height};
-    Json listed = Json::array();
-    for (const Light &l : cloud.lights)
-        listed.push_back(
-            {{"type", "point"}, {"position", {l.position.x, l.position.y, l.position.z}}, {"intensity", l.intensity.x}});
-    const Json scene{{"brume", 1},
-                     {"camera",
-                      {{"vertical_fov", 2 * std::atan(half_tangent) * 57.29577951308232},
-                       {"camera_to_world", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}}},
-                     {"medium", {{"scattering", 1}}},
-                     {"lights", listed},
-                     {"effects", {{"airlight", {{"tier", asked.tier}, {"max_error", asked.max_error}}}}}};
+    const Json scene = cloud.scene({{"tier", asked.tier}, {"max_error", asked.max_error}});
     const fog::Options options{nullptr, {"airlight"}};
     const fog::Picture black(view.width, view.height, 4), depth(black.width, black.height, 1, wall);
     const fog::Plan plan(context, scene.dump(), black.width, black.height, options,

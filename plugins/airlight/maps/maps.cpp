@@ -22,6 +22,11 @@ using brume::maths_float::GridSettings;
 using brume::maths_float::ivec2;
 using maps::Constants;
 
+constexpr int lights_at_once = brume::maths_float::grid_lights_at_once;
+
+// Lights whose maps are kept; more have theirs made in every frame.
+constexpr int most_kept_maps = 64;
+
 constexpr uint64_t most_map_bytes = uint64_t(64) << 20;
 constexpr int widest = 8192;  // of the grid's images
 
@@ -57,11 +62,10 @@ constexpr brume_constant constants_table[] = {
     BRUME_CONSTANT_OF(Constants, grid, slices), BRUME_CONSTANT_OF(Constants, grid, across),
     BRUME_CONSTANT_OF(Constants, grid, side),   BRUME_CONSTANT_OF(Constants, grid, nodes),
     BRUME_CONSTANT_OF(Constants, grid, mapped), BRUME_CONSTANT_OF(Constants, grid, gaussians),
-    BRUME_CONSTANT_OF(Constants, grid, tinted), BRUME_CONSTANT_OF(Constants, grid, grey),
+    BRUME_CONSTANT_OF(Constants, grid, grey),
     BRUME_CONSTANT_OF(Constants, grid, angle),  BRUME_CONSTANT_OF(Constants, grid, depth),
     BRUME_CONSTANT_OF(Constants, grid, doubt),  BRUME_AIRLIGHT_SETTINGS(Constants),
-    BRUME_CONSTANT(Constants, light_range),     BRUME_CONSTANT(Constants, reduction),
-    BRUME_CONSTANT(Constants, first_row)};
+    BRUME_CONSTANT(Constants, light_range),     BRUME_CONSTANT(Constants, reduction)};
 
 template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
 {
@@ -70,23 +74,9 @@ template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot 
     return desc;
 }
 
-bool is_tinted(const brume_plugin_scene &scene)
-{
-    return !scene.gaussians ||
-           std::any_of(scene.gaussians, scene.gaussians + scene.gaussian_count,
-                       [](const brume_plugin_gaussian &g) { return g.color[0] != 1 || g.color[1] != 1 || g.color[2] != 1; });
-}
-
 int corners(int size, int cell)
 {
     return (size + cell - 1) / cell + 1;
-}
-
-maps::Sizes sizes_for(const brume_plugin_request &request, const State &state)
-{
-    const Parameters &p = state.parameters;
-    return maps::sizes_of(*request.scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1,
-                          is_tinted(*request.scene), maps::fineness_of(p.max_error), uint64_t(p.memory * 1e6));
 }
 
 ivec2 grid_size(const GridSettings &s)
@@ -102,7 +92,7 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
                                 pass_text("airlight_map_attenuation.comp"), "", rows.attenuation, m.attenuation_pass))
         return s;
     if (brume_status s = create(services, host, pass("grid", density_slots, 1), "airlight_map_density.comp",
-                                pass_text("airlight_map_density.comp"), define("TINTED", m.settings.tinted), rows.density,
+                                pass_text("airlight_map_density.comp"), "", rows.density,
                                 m.density_pass))
         return s;
     if (brume_status s = create(services, host, pass("grid", lights_slots, 16), "airlight_map_lights.comp",
@@ -115,33 +105,31 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
 
 }  // namespace
 
-bool maps_suit(const brume_plugin_request &request, const State &state)
-{
-    return request.scene->gaussians && request.scene->gaussian_count >= fewest_gaussians &&
-           state.parameters.max_error >= least_error && sizes_for(request, state).fine;
-}
-
-double mapped_operations(const brume_plugin_request &request, const State &state)
-{
-    const maps::Sizes sizes = sizes_for(request, state);
-    // Orders beyond the first go pixel by pixel.
-    const double lights = request.scene->light_count * (state.parameters.orders == Orders::all ? 20 : 1),
-                 gaussians = request.scene->gaussian_count,
-                 pixels = double(state.width) * state.height / (state.parameters.reduction * state.parameters.reduction),
-                 side = maps::fineness_of(state.parameters.max_error).side, of_list = 40 * std::sqrt(1 + 0.1 * gaussians),
-                 points = double(corners(state.width, sizes.cell)) * corners(state.height, sizes.cell);
-    const double of_backend = request.backend == BRUME_BACKEND_GL ? 6 : 1;  // software GL, as the others are counted
-    return of_backend * (pixels * sizes.slices * (8 + 6 * lights) + points * (sizes.slices * (4 + 6 * lights) + of_list) +
-                         request.scene->light_count * side * side * of_list);
-}
-
-brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state)
+MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
 {
     const brume_plugin_scene &scene = *request.scene;
     const Parameters &p = state.parameters;
     const maps::Fineness fineness = maps::fineness_of(p.max_error);
-    const bool tinted = is_tinted(scene);
-    const maps::Sizes sizes = sizes_for(request, state);
+    MapsOffer offer{maps::sizes_of(scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, fineness,
+                                   uint64_t(p.memory * 1e6)),
+                    false, 0};
+    offer.suits = scene.gaussians && scene.gaussian_count >= fewest_gaussians && p.max_error >= least_error && offer.sizes.fine;
+    // Orders beyond the first go pixel by pixel.
+    const double lights = scene.light_count, looked_up = lights * (p.orders == Orders::all ? 20 : 1),
+                 pixels = double(state.width) * state.height / (p.reduction * p.reduction), slices = offer.sizes.slices,
+                 side = fineness.side, of_list = 40 * std::sqrt(1 + 0.1 * scene.gaussian_count),
+                 points = double(corners(state.width, offer.sizes.cell)) * corners(state.height, offer.sizes.cell);
+    const double of_backend = request.backend == BRUME_BACKEND_GL ? 6 : 1;  // software GL, as the others are counted
+    offer.operations = of_backend * (pixels * slices * (8 + 6 * looked_up) + points * (slices * (4 + 6 * lights) + of_list) +
+                                     lights * side * side * of_list);
+    return offer;
+}
+
+brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene,
+                       const maps::Sizes &sizes, State &state)
+{
+    const Parameters &p = state.parameters;
+    const maps::Fineness fineness = maps::fineness_of(p.max_error);
     Maps &m = state.maps;
     GridSettings &s = m.settings;
     s.size = ivec2(state.width, state.height);
@@ -152,24 +140,22 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     s.across = std::clamp(widest / s.columns, 1, s.slices + 1);
     s.side = fineness.side;
     s.nodes = fineness.nodes;
-    s.tinted = tinted;
     const brume_plugin_medium &medium = *scene.medium;
     auto grey = [](const float(&v)[3]) { return v[0] == v[1] && v[1] == v[2]; };
     s.grey = grey(medium.scattering) && grey(medium.absorption);
-    s.angle = float(fineness.angle * std::clamp(1.5 * (1 - std::abs(double(medium.asymmetry))), 0.2, 1.0));
     s.depth = float(fineness.depth);
     s.doubt = float(fineness.doubt);
     const uint64_t map_bytes = uint64_t(s.side) * uint64_t(s.side) * uint64_t(s.nodes) * 4;
     const int room =
-        std::clamp(int(most_map_bytes / map_bytes), maps::lights_at_once, std::min(most_kept_maps, 16384 / s.side));
-    m.kept = std::clamp(int(scene.light_count), maps::lights_at_once, room);
+        std::clamp(int(most_map_bytes / map_bytes), lights_at_once, std::min(most_kept_maps, 16384 / s.side));
+    m.kept = std::clamp(int(scene.light_count), lights_at_once, room);
 
     auto image = [&](const char *label, ivec2 size, int32_t channels, brume_plugin_image &out) {
         return services.create_image(host, label, size.x, size.y, channels, &out);
     };
     if (brume_status e = image("attenuation maps", ivec2(s.side * s.nodes, s.side * m.kept), 1, m.attenuation))
         return e;
-    if (brume_status e = image("grid of density", grid_size(s), tinted ? 4 : 1, m.density))
+    if (brume_status e = image("grid of density", grid_size(s), 4, m.density))
         return e;
     if (brume_status e = image("grid of the lights", grid_size(s), 4, m.lights))
         return e;
@@ -194,41 +180,47 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     if (brume_status e = entry("grid",
                                "cells of " + std::to_string(s.cell) + " px, " + std::to_string(s.slices) + " distances, " +
                                    std::to_string((sizes.bytes + 500000) / 1000000) + " MB, when something moved",
-                               points * 20, points * 4 * lights))
+                               points * 32, points * 4 * lights))
         return e;
     return create_map_passes(services, host, state);
 }
 
 namespace {
 
-// Where each light's nodes are.
-void place_frames(const brume_plugin_scene &scene, const ShadowLists &lists, std::vector<float> &texels)
+// How far from a light the medium's Gaussians begin and end; of directional lights along them, from the camera.
+void find_range(const brume_plugin_scene &scene, const brume_plugin_light &light, float *range)
 {
     using namespace brume::maths_double;
     const Medium medium = medium_of(scene);
-    texels.assign(size_t(scene.light_count) * 12, 0.0f);
+    const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
+    const vec3 position(light.position[0], light.position[1], light.position[2]),
+        direction(light.direction[0], light.direction[1], light.direction[2]);
+    double near = 1e30, far = -1e30;
+    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
+        const Gaussian g = gaussian_of(scene.gaussians[i]);
+        const double reach = gaussian_reach(medium, g),
+                     at = parallel ? dot(direction, g.center) : length(g.center - position);
+        near = std::min(near, at - reach);
+        far = std::max(far, at + reach);
+    }
+    if (!parallel)
+        near = std::max(near, 0.0);
+    if (!(near < far)) {
+        near = 0;
+        far = 1;
+    }
+    range[0] = float(near);
+    range[1] = float(std::max(far, near + 1e-6 * std::max(1.0, std::abs(near))));
+}
+
+// attenuation_frames; what a move of the camera leaves as it is stays.
+void place_frames(const brume_plugin_scene &scene, const ShadowLists &lists, bool moved, std::vector<float> &texels)
+{
+    texels.resize(size_t(scene.light_count) * 12);
     for (uint32_t l = 0; l < scene.light_count; ++l) {
-        const brume_plugin_light &light = scene.lights[l];
-        const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
-        const vec3 position(light.position[0], light.position[1], light.position[2]),
-            direction(light.direction[0], light.direction[1], light.direction[2]);
-        double near = 1e30, far = -1e30;
-        for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-            const Gaussian g = gaussian_of(scene.gaussians[i]);
-            const double reach = gaussian_reach(medium, g),
-                         at = parallel ? dot(direction, g.center) : length(g.center - position);
-            near = std::min(near, at - reach);
-            far = std::max(far, at + reach);
-        }
-        if (!parallel)
-            near = std::max(near, 0.0);
-        if (!(near < far)) {
-            near = 0;
-            far = 1;
-        }
         std::copy_n(&lists.origins[12 * (1 + l)], 8, &texels[12 * l]);
-        texels[12 * l + 8] = float(near);
-        texels[12 * l + 9] = float(std::max(far, near + 1e-6 * std::max(1.0, std::abs(near))));
+        if (moved || scene.lights[l].type == BRUME_LIGHT_DIRECTIONAL)
+            find_range(scene, scene.lights[l], &texels[12 * l + 8]);
     }
 }
 
@@ -238,16 +230,17 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
                           State &state)
 {
     Maps &m = state.maps;
-    maps::place_slices(scene, m.settings.slices, m.values);
-    if (brume_status s = services.upload(host, upload_slices, 1, m.values.data(), m.values.size(), &m.slices))
+    maps::place_slices(scene, m.settings.slices, state.values);
+    if (brume_status s = upload(services, host, upload_slices, 1, state.values, m.slices))
         return s;
     if (scene.light_count == 0)
         return BRUME_OK;
-    place_frames(scene, state.lists, m.values);
-    if (brume_status s =
-            services.upload(host, upload_attenuation_frames, 4, m.values.data(), m.values.size() / 4, &m.frames))
+    place_frames(scene, state.lists, moved, m.frame_texels);
+    if (brume_status s = upload(services, host, upload_attenuation_frames, 4, m.frame_texels, m.frames))
         return s;
     m.settings.gaussians = int(scene.gaussian_count);
+    m.settings.angle = float(maps::fineness_of(state.parameters.max_error).angle *
+                             std::clamp(1.5 * (1 - std::abs(double(scene.medium->asymmetry))), 0.2, 1.0));
     m.maps_pending = m.maps_pending || moved;
     m.grid_pending = true;
     m.in_grid = ivec2(0);
@@ -266,6 +259,8 @@ public:
         constants_.estimate = state.error != nullptr;
     }
 
+    // Whether there is room for the maps of all lights.
+    bool keeps() const { return int(frame_.scene->light_count) <= maps_.kept; }
     brume_status maps_of(int first, int last);
     brume_status density();
     brume_status lights(int first, int last);
@@ -290,9 +285,7 @@ brume_status Run::maps_of(int first, int last)
 {
     using namespace maps::attenuation;
     Constants constants = constants_;
-    const bool kept = int(frame_.scene->light_count) <= maps_.kept;
-    constants.grid.mapped = kept ? 0 : first;
-    constants.first_row = kept ? first * constants.grid.side : 0;
+    constants.grid.mapped = keeps() ? 0 : first;
     brume_plugin_image images[slot_count] = {};
     images[gaussians] = product(product_gaussians);
     images[cells] = state_.cells;
@@ -321,25 +314,27 @@ brume_status Run::density()
 brume_status Run::lights(int first, int last)
 {
     namespace slot = maps::lights;
-    constants_.light_range = ivec2(first, last);
-    constants_.grid.mapped = int(frame_.scene->light_count) <= maps_.kept ? 0 : first;
+    Constants constants = constants_;
+    constants.light_range = ivec2(first, last);
+    constants.grid.mapped = keeps() ? 0 : first;
     brume_plugin_image images[slot::slot_count] = {};
     images[slot::attenuation] = maps_.attenuation;
     images[slot::frames] = maps_.frames;
     images[slot::lights] = product(product_lights);
     images[slot::slices] = maps_.slices;
     images[slot::result] = maps_.lights;
-    const ivec2 size = grid_size(constants_.grid);
-    return services_.run(host_, maps_.lights_pass, images, &constants_, size.x, size.y, nullptr);
+    const ivec2 size = grid_size(constants.grid);
+    return services_.run(host_, maps_.lights_pass, images, &constants, size.x, size.y, nullptr);
 }
 
 brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, brume_plugin_image before_error)
 {
     namespace slot = maps::gather;
-    constants_.light_range = ivec2(wanted.first, wanted.last);
-    constants_.reduction = wanted.reduction;
+    Constants constants = constants_;
+    constants.light_range = ivec2(wanted.first, wanted.last);
+    constants.reduction = wanted.reduction;
     if (!wanted.environment)
-        constants_.airlight.environment_order = 0;
+        constants.airlight.environment_order = 0;
     brume_plugin_image images[slot::slot_count] = {};
     images[slot::depth] = frame_.depth;
     images[slot::gaussian_density] = product(product_gaussian_density);
@@ -358,8 +353,8 @@ brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, 
     images[slot::radiance] = wanted.radiance;
     images[slot::error] = wanted.error;
     images[slot::distances] = wanted.distances;
-    const ivec2 grid = brume::maths_float::reduced_size(constants_.grid.size, wanted.reduction);
-    return services_.run(host_, maps_.gather_pass, images, &constants_, grid.x, grid.y, nullptr);
+    const ivec2 grid = brume::maths_float::reduced_size(constants.grid.size, wanted.reduction);
+    return services_.run(host_, maps_.gather_pass, images, &constants, grid.x, grid.y, nullptr);
 }
 
 }  // namespace
@@ -368,45 +363,40 @@ brume_status gather_by_maps(const brume_services &services, brume_host host, con
                             const MappedGather &wanted)
 {
     Maps &m = state.maps;
-    const int count = int(frame.scene->light_count), at_once = maps::lights_at_once;
-    const bool kept = count <= m.kept;
-    if (m.maps_pending && kept) {
-        if (brume_status s = Run(services, host, frame, state).maps_of(0, count))
+    Run run(services, host, frame, state);
+    if (m.maps_pending && run.keeps()) {
+        if (brume_status s = run.maps_of(0, int(frame.scene->light_count)))
             return s;
         m.maps_pending = false;
     }
     if (m.grid_pending) {
-        if (brume_status s = Run(services, host, frame, state).density())
+        if (brume_status s = run.density())
             return s;
         m.grid_pending = false;
     }
-    // So that the last round writes what is wanted.
-    const int rounds = std::max(1, (wanted.last - wanted.first + at_once - 1) / at_once);
+    const int rounds = std::max(1, (wanted.last - wanted.first + lights_at_once - 1) / lights_at_once);
     for (int round = 0; round < rounds; ++round) {
-        const int first = wanted.first + round * at_once, last = std::min(first + at_once, wanted.last);
-        Run run(services, host, frame, state);
-        if (first < last && (m.in_grid.x != first || m.in_grid.y != last)) {
-            if (!kept)
-                if (brume_status s = run.maps_of(first, last))
-                    return s;
-            if (brume_status s = run.lights(first, last))
-                return s;
-            m.in_grid = ivec2(first, last);
-        }
-        const bool ours = (rounds - 1 - round) % 2 == 0;
         MappedGather now = wanted;
-        now.first = first;
-        now.last = last;
-        now.radiance = ours ? wanted.radiance : m.radiance;
-        now.error = !wanted.error ? nullptr : ours ? wanted.error : m.error;
+        now.first = wanted.first + round * lights_at_once;
+        now.last = std::min(now.first + lights_at_once, wanted.last);
+        const ivec2 range(now.first, now.last);
+        if (range.x < range.y && m.in_grid != range) {
+            if (!run.keeps())
+                if (brume_status s = run.maps_of(range.x, range.y))
+                    return s;
+            if (brume_status s = run.lights(range.x, range.y))
+                return s;
+            m.in_grid = range;
+        }
         now.environment = wanted.environment && round == 0;
-        if (brume_status s = run.gather(now,
-                                        round == 0 ? nullptr
-                                        : ours     ? m.radiance
-                                                   : wanted.radiance,
-                                        round == 0 || !wanted.error ? nullptr
-                                        : ours                      ? m.error
-                                                                    : wanted.error))
+        // Two images in turn, so that the last round writes what is wanted.
+        brume_plugin_image before = m.radiance, before_error = m.error;
+        if ((rounds - 1 - round) % 2 != 0) {
+            std::swap(now.radiance, before);
+            if (wanted.error)
+                std::swap(now.error, before_error);
+        }
+        if (brume_status s = run.gather(now, round > 0 ? before : nullptr, round > 0 && wanted.error ? before_error : nullptr))
             return s;
     }
     return BRUME_OK;

@@ -1,18 +1,15 @@
 // Method `maps`: attenuation maps of the lights (Gautron et al.) and a grid of density along the view's rays.
 #pragma once
-#include <string>
 #include <vector>
 
 #include <brume/brume_plugin.h>
 
+#include "maps/sizes.h"
 #include "scene_maths.hpp"
 
 namespace airlight {
 
 struct State;
-
-// Lights whose maps are kept; more have theirs made in every frame.
-constexpr int most_kept_maps = 64;
 
 struct Maps {
     bool used = false;
@@ -33,17 +30,19 @@ struct Maps {
     bool maps_pending = false;
     bool grid_pending = false;
     brume::maths_float::ivec2 in_grid{0};  // the lights whose attenuation grid_lights has
-    std::vector<float> values;
+    std::vector<float> frame_texels;
 };
 
-// Whether the grid can be as fine as the scene's Gaussians are small.
-bool maps_suit(const brume_plugin_request &request, const State &state);
+struct MapsOffer {
+    maps::Sizes sizes;
+    bool suits;         // may be taken unasked
+    double operations;  // of a frame in which all moved, as brume_plugin_entry counts them
+};
+MapsOffer offer_maps(const brume_plugin_request &request, const State &state);
 
-// Of a frame in which all moved, as brume_plugin_entry counts them.
-double mapped_operations(const brume_plugin_request &request, const State &state);
-
-// At planning: sizes, images, passes and their entries.
-brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_request &request, State &state);
+// At planning: images, passes and their entries.
+brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene,
+                       const maps::Sizes &sizes, State &state);
 
 // Of a frame whose lights, Gaussians or camera moved, after the lists of shadow_lists.h. moved: not the camera alone.
 brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,

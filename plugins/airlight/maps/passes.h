@@ -6,15 +6,12 @@
 
 namespace airlight::maps {
 
-constexpr int lights_at_once = 4;  // channels of grid_lights
-
 // Of all passes; each reads what concerns it.
 struct Constants {
     brume::maths_float::GridSettings grid;
     brume::maths_float::AirlightSettings airlight;
     brume::maths_float::ivec2 light_range;  // the lights [x, y), four at most
     int32_t reduction;
-    int32_t first_row;  // of the maps that are made
     int32_t estimate;   // the error is wanted
 };
 

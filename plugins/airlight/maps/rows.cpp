@@ -6,8 +6,6 @@
 #include "maps/sizes.h"
 #include "pixels.hpp"
 
-#define PURE [[gnu::always_inline]] inline
-
 namespace airlight::maps {
 
 namespace {
@@ -76,12 +74,12 @@ void add_rest(const brume_plugin_rows &call, int first, int count, int y)
     if (!previous.data && !distances.data && !lit)
         return;
     const Camera camera = camera_of(*call.scene);
+    const Medium medium = medium_of(*call.scene);
     for (int x = first; x < first + count; ++x) {
         vec3 sum = vec3(load(radiance, x, y));
         const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.grid.size);
         const Ray ray = pixel_ray(camera, pixel_centre(pixel.x, pixel.y), *at(slots[gather::depth], pixel.x, pixel.y));
         if (lit && !ray.keep) {
-            const Medium medium = medium_of(*call.scene);
             sum += environment_airlight(medium, camera, texture_of(slots[gather::environment]),
                                         texture_of(slots[gather::environment_table]), constants.airlight.environment_order,
                                         ray.direction,
@@ -95,29 +93,14 @@ void add_rest(const brume_plugin_rows &call, int first, int count, int y)
     }
 }
 
-namespace generic {
-using namespace brume::lanes_generic;
-#include "maps/rows.inc"
-}  // namespace generic
-
-#ifdef BRUME_AVX2
-BRUME_BEGIN_AVX2
-namespace avx2 {
-using namespace brume::lanes_avx2;
-#include "maps/rows.inc"
-}  // namespace avx2
-BRUME_END_AVX2
-#endif
+#define BRUME_LANES_BODY "maps/rows.inc"
+#include "lanes_bodies.inc"
 
 }  // namespace
 
 const Rows &rows_of_this_machine()
 {
-#ifdef BRUME_AVX2
-    if (brume::runs_avx2())
-        return avx2::rows;
-#endif
-    return generic::rows;
+    return BRUME_OF_THIS_MACHINE(rows);
 }
 
 }  // namespace airlight::maps

@@ -17,7 +17,7 @@ Fineness fineness_of(double max_error)
     return {0.35, 2.8, 128, 256, 64, 0.1, 0.12, 0.0015};
 }
 
-Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least_cell, bool tinted, const Fineness &fineness,
+Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least_cell, const Fineness &fineness,
                uint64_t most_bytes)
 {
     // A Gaussian's deviation on the screen, of the tenth part that are the smallest.
@@ -44,7 +44,7 @@ Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least
     auto bytes = [&] {
         const uint64_t columns = uint64_t((width + sizes.cell - 1) / sizes.cell + 1),
                        rows = uint64_t((height + sizes.cell - 1) / sizes.cell + 1);
-        return columns * rows * uint64_t(sizes.slices + 1) * (tinted ? 32 : 20);
+        return columns * rows * uint64_t(sizes.slices + 1) * 32;
     };
     while ((sizes.bytes = bytes()) > most_bytes && sizes.cell < std::max(width, height))
         sizes.cell *= 2;

@@ -25,8 +25,8 @@ struct Sizes {
     uint64_t bytes;
     bool fine;  // as fine as the Gaussians want it
 };
-// tinted: some Gaussian has a colour. most_bytes: of the grid. scene.gaussians may be NULL: then of a usual medium.
-Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least_cell, bool tinted, const Fineness &fineness,
+// most_bytes: of the grid. scene.gaussians may be NULL: then of a usual medium.
+Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least_cell, const Fineness &fineness,
                uint64_t most_bytes);
 
 }  // namespace airlight::maps

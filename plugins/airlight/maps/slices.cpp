@@ -15,17 +15,17 @@ constexpr int bins = 256;
 constexpr int before_gaussians = 8, behind_gaussians = 20;
 
 // Along the view: where Gaussians are, and what the smallest of each place is.
-struct Profile1 {
+struct AlongView {
     double from = 0, to = 0;
     std::array<double, bins> sharpness{};  // 1 / radius
 
     double width() const { return (to - from) / bins; }
 };
 
-Profile1 profile_of(const brume_plugin_scene &scene)
+AlongView along_view(const brume_plugin_scene &scene)
 {
     const Medium medium = medium_of(scene);
-    Profile1 p;
+    AlongView p;
     p.from = 1e30;
     auto each = [&](auto visit) {
         for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
@@ -91,7 +91,7 @@ int wanted_slices(const brume_plugin_scene &scene, const Fineness &fineness)
     const int of_terms = has_terms(scene) ? before_gaussians + behind_gaussians : 1;
     if (!scene.gaussians)
         return std::min(2 * fineness.least_slices + of_terms, most_slices);
-    const Profile1 p = profile_of(scene);
+    const AlongView p = along_view(scene);
     double steps = 0;
     for (double s : p.sharpness)
         steps += s * p.width() * fineness.steps;
@@ -100,7 +100,7 @@ int wanted_slices(const brume_plugin_scene &scene, const Fineness &fineness)
 
 void place_slices(const brume_plugin_scene &scene, int slices, std::vector<float> &distances)
 {
-    const Profile1 p = profile_of(scene);
+    const AlongView p = along_view(scene);
     const bool terms = has_terms(scene);
     distances.assign(1, 0.0f);
     auto add = [&](double t) { distances.push_back(std::nextafter(std::max(float(t), distances.back()), 1e30f)); };
