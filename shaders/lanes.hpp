@@ -2,8 +2,7 @@
 #pragma once
 // shaders/lib for several pixels of a row side by side, which is what the CPU runs where a pass costs most:
 // brume::lanes_generic for every machine, brume::lanes_avx2 for those of which runs_avx2() is true. Loops that use them are
-// compiled once for each, the second between BRUME_BEGIN_AVX2 and BRUME_END_AVX2. Both have eight pixels, since what some of them
-// need all of them do.
+// compiled once for each (lanes_bodies.inc), the second between BRUME_BEGIN_AVX2 and BRUME_END_AVX2.
 //
 // GCC's vectors and arithmetic of our own won over Highway and xsimd: they round alike on every machine (nothing is fused,
 // the exponentials are the same), so that a picture does not depend on where it was made, and there is no second object
@@ -48,6 +47,9 @@ namespace lanes_avx2 {
 }
 BRUME_END_AVX2
 #undef BRUME_GATHER
+#define BRUME_OF_THIS_MACHINE(name) (brume::runs_avx2() ? avx2::name : generic::name)
+#else
+#define BRUME_OF_THIS_MACHINE(name) generic::name
 #endif
 
 }  // namespace brume

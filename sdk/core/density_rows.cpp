@@ -6,8 +6,6 @@
 #include "lanes.hpp"
 #include "scene_maths.hpp"
 
-#define PURE [[gnu::always_inline]] inline
-
 namespace brume {
 namespace {
 
@@ -35,38 +33,19 @@ brume_status noisy_density_rows(const brume_plugin_rows *call, int32_t first, in
     return BRUME_OK;
 }
 
-namespace generic {
-using namespace brume::lanes_generic;
-#include "core/density_rows.inc"
-}  // namespace generic
-
-#ifdef BRUME_AVX2
-BRUME_BEGIN_AVX2
-namespace avx2 {
-using namespace brume::lanes_avx2;
-#include "core/density_rows.inc"
-}  // namespace avx2
-BRUME_END_AVX2
-#endif
+#define BRUME_LANES_BODY "core/density_rows.inc"
+#include "lanes_bodies.inc"
 
 }  // namespace
 
 brume_rows_function density_rows()
 {
-#ifdef BRUME_AVX2
-    if (runs_avx2())
-        return avx2::density_rows;
-#endif
-    return generic::density_rows;
+    return BRUME_OF_THIS_MACHINE(density_rows);
 }
 
 brume_rows_function gaussian_density_rows()
 {
-#ifdef BRUME_AVX2
-    if (runs_avx2())
-        return avx2::gaussian_density_rows;
-#endif
-    return generic::gaussian_density_rows;
+    return BRUME_OF_THIS_MACHINE(gaussian_density_rows);
 }
 
 template <int mode> brume_status layer_density_rows(const brume_plugin_rows *call, int32_t first, int32_t last)

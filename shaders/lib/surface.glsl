@@ -185,19 +185,27 @@ PURE vec3 lit_by_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) light, I
                      ? straight * (n + R(1.0)) / (R(2.0) * pi) * exp(n * log(max(mirror_cosine, R(1e-6))))
                      : R(0.0);
     vec3 sum = vec3(R(0.0));
+    float along = R(0.0);
+    float kept = R(0.0);
+    float aside = R(0.0);
+    float mirrored_aside = R(0.0);
     for (int c = 0; c < 3; ++c) {
-        float scattering = min(medium.scattering[c] * p, orders_depth_limit);
-        float absorption = min(medium.absorption[c] * p, orders_depth_limit);
-        Received r = received(scattering, absorption, medium.asymmetry, cosine);
+        if (c == 0 || medium.scattering[c] != medium.scattering[c - 1] || medium.absorption[c] != medium.absorption[c - 1]) {
+            float scattering = min(medium.scattering[c] * p, orders_depth_limit);
+            float absorption = min(medium.absorption[c] * p, orders_depth_limit);
+            Received r = received(scattering, absorption, medium.asymmetry, cosine);
+            Rescattered again = rescattered(scattering, absorption, medium.asymmetry);
+            along = r.along;
+            kept = exp(-(scattering + absorption));
+            // From behind less comes: the first moments of light of this mean cosine.
+            aside = exp(R(2.0) * again.cosine * min(cosine, R(0.0))) * r.aside;
+            float width = again.cosine * (n + R(1.0)) / (n + R(2.0));
+            mirrored_aside = again.fluence * henyey_greenstein(width, mirror_cosine);
+        }
         float intensity = min(strength * light.intensity[c], radiance_limit);
         float highlight = min(gloss[c] * lobe * intensity, max(own[c], R(0.0)));
-        Rescattered again = rescattered(scattering, absorption, medium.asymmetry);
-        // From behind less comes: the first moments of light of this mean cosine.
-        float behind = exp(R(2.0) * again.cosine * min(cosine, R(0.0)));
-        float width = again.cosine * (n + R(1.0)) / (n + R(2.0));
-        float brought = material.albedo[c] / pi * behind * r.aside +
-                        gloss[c] * again.fluence * henyey_greenstein(width, mirror_cosine);
-        sum[c] = min((own[c] - highlight) * r.along + highlight * exp(-(scattering + absorption)) +
+        float brought = material.albedo[c] / pi * aside + gloss[c] * mirrored_aside;
+        sum[c] = min((own[c] - highlight) * along + highlight * kept +
                          min(intensity * straight, radiance_limit) * brought, radiance_limit);
     }
     return sum;

@@ -90,6 +90,9 @@ PURE vec4 surroundings_texel(IN(SurroundingsSettings) settings, IN(Camera) camer
         Bool is_ground = axis == settings.axis && !high;
         return is_ground ? vec4(max(lamp[axis] + settings.height, R(0.0)), R(1.0), R(0.0), R(0.0)) : vec4(R(0.0));
     }
+    // Sky is no wall, wherever the medium in front of it is to end.
+    Camera eye = camera;
+    eye.sky = sky_fog;
     float covered = R(0.0);
     float open = R(0.0);
     float far = R(0.0);
@@ -99,7 +102,7 @@ PURE vec4 surroundings_texel(IN(SurroundingsSettings) settings, IN(Camera) camer
         for (int i = 0; i < surroundings_samples.x; ++i) {
             ivec2 pixel = clamp(ivec2((vec2(float(i), float(j)) + R(0.5)) * cell), ivec2(0), size - 1);
             vec2 center = vec2(pixel) + R(0.5);
-            Ray ray = pixel_ray(camera, center, texelFetch(depth, pixel, 0).x);
+            Ray ray = pixel_ray(eye, center, texelFetch(depth, pixel, 0).x);
             float stretch = length(ray_through(camera, center));
             float angle = sample_area / (stretch * stretch * stretch);
             vec3 direction = in_world(camera, ray.direction);
@@ -114,7 +117,7 @@ PURE vec4 surroundings_texel(IN(SurroundingsSettings) settings, IN(Camera) camer
                     open += angle;
                 continue;
             }
-            vec3 normal = in_world(camera, normal_seen(camera, depth, size, pixel, ray.distance * ray.direction));
+            vec3 normal = in_world(camera, normal_seen(eye, depth, size, pixel, ray.distance * ray.direction));
             float facing = max(high ? -normal[axis] : normal[axis], R(0.0));
             // What the sample covers of the plane, as the lamp sees it. Near it, that is no more than the side.
             float away = length(to);

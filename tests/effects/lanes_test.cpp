@@ -14,18 +14,10 @@ namespace {
 
 namespace f32 = brume::maths_float;
 
-namespace generic {
-using namespace brume::lanes_generic;
-#include "lanes_probe.inc"
-}  // namespace generic
+#define BRUME_LANES_BODY "lanes_probe.inc"
+#include "lanes_bodies.inc"
 
 #ifdef BRUME_AVX2
-BRUME_BEGIN_AVX2
-namespace avx2 {
-using namespace brume::lanes_avx2;
-#include "lanes_probe.inc"
-}  // namespace avx2
-BRUME_END_AVX2
 // What `call` gives in either namespace, which must be the same bits where the machine has both.
 #define IN_BOTH(call) same_bits(generic::call, brume::runs_avx2() ? avx2::call : generic::call)
 #else

@@ -16,21 +16,10 @@ namespace f32 = brume::maths_float;
 namespace f64 = brume::maths_double;
 namespace maths_float = brume::maths_float;
 
-namespace generic {
-using namespace brume::lanes_generic;
-#include "calibrated/rows.inc"
-#include "stencils_probe.inc"
-}  // namespace generic
-
-#ifdef BRUME_AVX2
-BRUME_BEGIN_AVX2
-namespace avx2 {
-using namespace brume::lanes_avx2;
-#include "calibrated/rows.inc"
-#include "stencils_probe.inc"
-}  // namespace avx2
-BRUME_END_AVX2
-#endif
+#define BRUME_LANES_BODY "calibrated/rows.inc"
+#include "lanes_bodies.inc"
+#define BRUME_LANES_BODY "stencils_probe.inc"
+#include "lanes_bodies.inc"
 
 // One stack of levels, of one channel or four, in both precisions.
 struct Stack {
