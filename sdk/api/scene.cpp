@@ -86,8 +86,11 @@ Light read_light(const brume_light *given, const std::string &name)
     brume_light read = BRUME_LIGHT_INIT;
     read = read_struct(given, read, name.c_str(), &brume_light::type, &brume_light::position, &brume_light::direction,
                        &brume_light::intensity, &brume_light::radius, &brume_light::angle, &brume_light::penumbra,
-                       &brume_light::distance, &brume_light::shadow_kind, &brume_light::shadow_depth, &brume_light::shadow_extent,
-                       &brume_light::shadow_to_world, &brume_light::surfaces);
+                       &brume_light::distance, &brume_light::shadow_kind, &brume_light::shadow_depth,
+                       &brume_light::shadow_extent, &brume_light::shadow_to_world, &brume_light::surfaces,
+                       &brume_light::reserved);
+    if (read.reserved)
+        expect(false, name + ".reserved", read.reserved, "0");
     Light light{
         read.type,     numbers(read.position), numbers(read.direction), numbers(read.intensity), read.radius, read.angle,
         read.penumbra, read.distance};

@@ -16,6 +16,8 @@
 
 namespace brume {
 
+inline const std::string host_name = "brume";  // of the host's own entries
+
 struct PlanEntry {
     bool runs = false;
     std::string effect, name, reason;
@@ -27,7 +29,7 @@ struct PlanEntry {
 // One effect's part of a plan.
 struct PlannedEffect {
     const Effect *effect = nullptr;
-    bool named = false;  // by the scene
+    bool named = false;                // by the scene
     std::vector<double> parameters{};  // as asked
     std::vector<double> settled{};     // with what the scene decides
     void *state = nullptr;
@@ -105,6 +107,7 @@ private:
     void plan_effects();
     brume_plugin_request request_of(const brume::PlannedEffect &planned, const std::vector<uint32_t> &layers,
                                     const brume_plugin_scene &scene) const;
+    template <class Callback> void call(brume::PlannedEffect &planned, const char *name, const Callback &callback);
     void settle(brume::PlannedEffect &planned, const brume_plugin_scene &scene);
     bool lacks_layer(brume::PlannedEffect &planned);
     void plan_effect(brume::PlannedEffect &planned, const brume_plugin_scene &scene);
@@ -144,7 +147,7 @@ private:
     brume::Products products_;
     brume::HostProducts host_products_;
     std::map<std::pair<const brume::PlannedEffect *, uint32_t>, Data> data_;  // by effect (the host: null) and slot
-    bool settling_ = false;  // what the scene decides of the effects' parameters
+    bool settling_ = false;                          // what the scene decides of the effects' parameters
     const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
     std::string failure_;
     bool warned_ = false;

@@ -1,4 +1,4 @@
-// Effects that misbehave when they end, and one that counts overlapping calls: one library per case, named by TEST_CASE.
+// Effects that misbehave when they end or settle, and one that counts overlapping calls: one library per case, named by TEST_CASE.
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -17,6 +17,14 @@ struct Alone {
     Alone() { std::this_thread::sleep_for(std::chrono::microseconds(200)); }
     ~Alone() { --inside; }
 };
+
+brume_status settle(const brume_services *services, brume_host host, const brume_plugin_request *, double *)
+{
+    Alone now;
+    if (test_case == "throws_settling")
+        throw std::runtime_error("thrown in settle");
+    return now.alone ? BRUME_OK : services->fail(host, BRUME_ERROR_PLUGIN, "called twice at once");
+}
 
 brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *, void **state)
 {
@@ -67,6 +75,7 @@ const brume_effect effect{
     .destroy = destroy,
     .makes_with = nullptr,
     .offer = nullptr,
+    .settle = settle,
 };
 
 }  // namespace

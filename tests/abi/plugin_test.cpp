@@ -84,6 +84,7 @@ TEST_F(Strangers, BadOnesFailWithAMessage)
         {"throws_destroying", BRUME_OK, ""},
         {"throws_int_destroying", BRUME_OK, ""},
         {"throws_destroying_and_planning", BRUME_ERROR_PLUGIN, "thrown in plan"},
+        {"throws_settling", BRUME_ERROR_PLUGIN, "threw in settle: thrown in settle"},
     };
     Context both = context_with(BRUME_ODD_EFFECT_DIR);
     for (const Case &c : cases) {

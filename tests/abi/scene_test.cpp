@@ -136,6 +136,8 @@ TEST_F(SceneCalls, LightsRefuseNonsense)
         {BRUME_LIGHT_POINT, [](auto &l) { l.position[0] = NAN; }, "lights[1].position[0]"},
         {BRUME_LIGHT_POINT, [](auto &l) { l.intensity[2] = -1; }, "lights[1].intensity[2]: -1"},
         {BRUME_LIGHT_POINT, [](auto &l) { l.radius = -1; }, "lights[1].radius: -1"},
+        {BRUME_LIGHT_POINT, [](auto &l) { l.surfaces = 2; }, "lights[1].surfaces: 2; expected a BRUME_SURFACES_..."},
+        {BRUME_LIGHT_POINT, [](auto &l) { l.reserved = 7; }, "lights[1].reserved: 7; expected 0"},
         {BRUME_LIGHT_POINT, [](auto &l) { l.direction[2] = l.angle = l.distance = NAN; }, nullptr},
         {BRUME_LIGHT_SPOT, [](auto &l) { l.direction[2] = 0; }, "lights[1].direction: (0, 0, 0)"},
         {BRUME_LIGHT_SPOT, [](auto &l) { l.angle = 3.2; }, "lights[1].angle: 3.2"},
