@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include "scene_maths.hpp"
 
 namespace airlight {
 namespace {
@@ -43,6 +40,23 @@ Met met(const std::vector<Sphere> &spheres, vec3 from, vec3 direction, double sp
 
 }  // namespace
 
+std::vector<vec3> tried_rays(const brume_plugin_scene &scene, int width, int height)
+{
+    const auto &c = *scene.camera;
+    std::vector<vec3> directions;
+    for (int i = 0; i < rays_a_side * rays_a_side; ++i) {
+        const double x = (i % rays_a_side + 0.5) / rays_a_side * width, y = (i / rays_a_side + 0.5) / rays_a_side * height;
+        directions.push_back(
+            normalize(vec3((x - c.center[0]) * c.tangent_scale[0], (y - c.center[1]) * c.tangent_scale[1], -1)));
+    }
+    return directions;
+}
+
+uint32_t tried_step(const brume_plugin_scene &scene)
+{
+    return 1 + scene.gaussian_count / most_tried;
+}
+
 Encounters encounters(const brume_plugin_scene &scene, int width, int height)
 {
     if (scene.gaussian_count == 0)
@@ -50,7 +64,7 @@ Encounters encounters(const brume_plugin_scene &scene, int width, int height)
     if (!scene.gaussians)
         return {1, 1};
     const Medium medium = medium_of(scene);
-    const uint32_t step = 1 + scene.gaussian_count / most_tried;
+    const uint32_t step = tried_step(scene);
     std::vector<Sphere> spheres;
     for (uint32_t i = 0; i < scene.gaussian_count; i += step) {
         const Gaussian g = gaussian_of(scene.gaussians[i]);
@@ -60,10 +74,8 @@ Encounters encounters(const brume_plugin_scene &scene, int width, int height)
     const double tile_spread = BRUME_TILE_SIZE * 0.5 * (c.tangent_scale[0] + std::abs(c.tangent_scale[1])) / sqrt(2.0);
     Encounters sum;
     double lit = 0;
-    for (int i = 0; i < rays_a_side * rays_a_side; ++i) {
-        const double x = (i % rays_a_side + 0.5) / rays_a_side * width, y = (i / rays_a_side + 0.5) / rays_a_side * height;
-        const vec3 direction =
-            normalize(vec3((x - c.center[0]) * c.tangent_scale[0], (y - c.center[1]) * c.tangent_scale[1], -1));
+    const std::vector<vec3> rays = tried_rays(scene, width, height);
+    for (const vec3 &direction : rays) {
         const Met seen = met(spheres, vec3(0), direction, tile_spread);
         sum.of_sight += seen.count;
         for (uint32_t l = 0; l < scene.light_count && seen.count > 0; ++l) {
@@ -76,7 +88,7 @@ Encounters encounters(const brume_plugin_scene &scene, int width, int height)
             ++lit;
         }
     }
-    sum.of_sight *= double(step) / (rays_a_side * rays_a_side);
+    sum.of_sight *= step / double(rays.size());
     sum.of_light *= step / std::max(lit, 1.0);
     return sum;
 }

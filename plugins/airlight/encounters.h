@@ -1,7 +1,15 @@
 #pragma once
+#include <vector>
+
 #include <brume/brume_plugin.h>
 
+#include "scene_maths.hpp"
+
 namespace airlight {
+
+// What estimates over the planned view try of it: the directions of some rays, and one Gaussian of so many.
+std::vector<brume::maths_double::vec3> tried_rays(const brume_plugin_scene &scene, int width, int height);
+uint32_t tried_step(const brume_plugin_scene &scene);
 
 // How many Gaussians rays come near, in the mean over the planned view.
 struct Encounters {

@@ -3,37 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene_maths.hpp"
+#include "encounters.h"
 
 namespace airlight {
 namespace {
 
 using namespace brume::maths_double;
 
-constexpr int rays_a_side = 8;
-constexpr uint32_t most_tried = 4096;  // Gaussians
 constexpr uint32_t most_lights = 64;
+constexpr double most_radii = 6;  // from a ray: e^-36 of its density. Plans ask for many of these, and few are nearer.
 
-double gaussians_depth(const brume_plugin_scene &scene, vec3 from, vec3 direction, double distance)
+// Along a ray from the camera.
+double gaussians_depth(const brume_plugin_scene &scene, vec3 direction, double distance)
 {
-    const uint32_t step = 1 + scene.gaussian_count / most_tried;
+    const uint32_t step = tried_step(scene);
     double sum = 0;
-    for (uint32_t i = 0; i < scene.gaussian_count; i += step)
-        sum += step * profile_depth(profile_along(gaussian_of(scene.gaussians[i]), from, direction), 0, distance);
+    for (uint32_t i = 0; i < scene.gaussian_count; i += step) {
+        const Gaussian g = gaussian_of(scene.gaussians[i]);
+        if (g.scale * length(cross(direction, g.center)) < most_radii)
+            sum += step * profile_depth(profile_along(g, vec3(0), direction), 0, distance);
+    }
     return sum;
 }
 
 // Where lamps stand beside Gaussians and not in them, the depth between them and the camera says nothing.
 double deepest_gaussians(const brume_plugin_scene &scene, int width, int height)
 {
-    const auto &c = *scene.camera;
+    if (scene.gaussian_count == 0)
+        return 0;
     double deepest = 0;
-    for (int i = 0; scene.gaussian_count > 0 && i < rays_a_side * rays_a_side; ++i) {
-        const double x = (i % rays_a_side + 0.5) / rays_a_side * width, y = (i / rays_a_side + 0.5) / rays_a_side * height;
-        const vec3 direction =
-            normalize(vec3((x - c.center[0]) * c.tangent_scale[0], (y - c.center[1]) * c.tangent_scale[1], -1));
-        deepest = std::max(deepest, gaussians_depth(scene, vec3(0), direction, far_away));
-    }
+    for (const vec3 &direction : tried_rays(scene, width, height))
+        deepest = std::max(deepest, gaussians_depth(scene, direction, far_away));
     return deepest;
 }
 
@@ -56,8 +56,7 @@ double scattered_on_the_way(const brume_plugin_scene &scene, int width, int heig
         const double distance = length(light.position);
         const vec3 direction = light.position / std::max(distance, 1e-20);
         const double depth = std::min(
-            std::max(terms_to_light(medium, light, vec3(0)) + gaussians_depth(scene, vec3(0), direction, distance), least),
-            1e9);
+            std::max(terms_to_light(medium, light, vec3(0)) + gaussians_depth(scene, direction, distance), least), 1e9);
         for (int c = 0; c < 3; ++c) {
             const double s = medium.scattering[c] * depth, a = medium.absorption[c] * depth;
             const double scattered = rescattered(s, a, medium.asymmetry).fluence;

@@ -83,10 +83,11 @@ private:
     {
         return frame_.products[of].image_count ? frame_.products[of].images[0] : nullptr;
     }
+    bool lights_surfaces(uint32_t light) const { return scene_.lights[light].surfaces != float(BRUME_SURFACES_UNLIT); }
     brume_plugin_image group_of(uint32_t light) const
     {
         const brume_plugin_image *groups = frame_.layers[layer_light_group].of_lights;
-        return groups ? groups[light] : nullptr;
+        return groups && lights_surfaces(light) ? groups[light] : nullptr;
     }
     brume_status run(brume_pass pass, const brume_plugin_image *images)
     {
@@ -107,7 +108,7 @@ brume_status Frame::upload()
 {
     std::vector<float> ungrouped, environment;
     for (uint32_t l = 0; l < scene_.light_count; ++l)
-        ungrouped.push_back(group_of(l) || scene_.lights[l].surfaces == float(BRUME_SURFACES_UNLIT) ? 0.0f : 1.0f);
+        ungrouped.push_back(group_of(l) || !lights_surfaces(l) ? 0.0f : 1.0f);
     for (uint32_t i = 0; i < scene_.environment_count; ++i)
         environment.insert(environment.end(),
                            {scene_.environment[i][0], scene_.environment[i][1], scene_.environment[i][2], 0.0f});

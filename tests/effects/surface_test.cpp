@@ -149,6 +149,9 @@ TEST_P(SurfaceOn, LampsThatLightNoSurfaces)
     const Picture alone = relit(context(), one, color, frame.depth);
     EXPECT_EQ(relit(context(), unlit, color, frame.depth).data, alone.data);
     EXPECT_NE(both.data, alone.data);
+    const Picture group = random_picture(24, 16, 2);
+    EXPECT_EQ(relit(context(), unlit, color, frame.depth, {}, {group, group}).data,
+              relit(context(), one, color, frame.depth, {}, {group}).data);
 }
 
 // Without names of effects, layers of lit surfaces ask for it.

@@ -48,9 +48,10 @@ struct Seen {
     {
         f64::Light light{};
         light.position = lamp;
-        return f64::surroundings_texel({f64::surroundings_seen, 0, 0}, wide_camera(),
+        return f64::surroundings_texel({f64::surroundings_seen, 0, 0}, camera,
                                        {values.data(), width, width, height, 1}, {width, height}, light, index);
     }
+    f64::Camera camera = wide_camera();
     std::vector<double> values;
 };
 
@@ -107,9 +108,13 @@ TEST(Surroundings, SkyIsNoCeilingAndFieldsAreNoWalls)
     for (int side : {0, 1, 3, 4, 5}) {
         EXPECT_LT(field.side(lamp, side).y, 0.02) << side;
     }
-    const Seen nothing({INFINITY, INFINITY, INFINITY, INFINITY, INFINITY});
-    for (int side = 0; side < 6; ++side)
-        EXPECT_EQ(nothing.side(lamp, side).y, 0) << side;
+    Seen nothing({INFINITY, INFINITY, INFINITY, INFINITY, INFINITY});
+    nothing.camera.sky_distance = 12;
+    for (int sky : {f64::sky_fog, f64::sky_keep, f64::sky_clamp}) {
+        nothing.camera.sky = sky;
+        for (int side = 0; side < 6; ++side)
+            EXPECT_EQ(nothing.side(lamp, side).y, 0) << side << ", sky " << sky;
+    }
 }
 
 TEST(Surroundings, PlanesTakeMoreTogetherButNotTwice)
