@@ -55,8 +55,7 @@ Sample load_sample(const FrameFile &file, const PictureOptions &options, const C
     sample.frame = file.frame;
     sample.weights = colors.luminance_weights(header);
     Frame frame = read_frame(std::move(open.file), open.color, &depth);
-    colors.file_to_working(frame.file, frame.pixels.data(), std::size_t(frame.width) * std::size_t(frame.height),
-                           frame.channels);
+    colors.file_to_working(frame);
     sample.channels = frame.channels;
     sample.color = std::move(frame.pixels);
     sample.depth = std::move(frame.depth);
@@ -64,7 +63,8 @@ Sample load_sample(const FrameFile &file, const PictureOptions &options, const C
     if (!truth.empty()) {
         ImageFile truth_file(truth);
         const ColorChoice color = resolve_color(truth_file, options.layers);
-        const Frame other = read_frame(std::move(truth_file), color, nullptr);
+        Frame other = read_frame(std::move(truth_file), color, nullptr);
+        colors.file_to_working(other);
         if (other.width != frame.width || other.height != frame.height)
             throw RequestError(fmt::format("--truth {}: {} x {} pixels; expected {} x {}, as {} has", truth, other.width,
                                            other.height, frame.width, frame.height, sample.name));

@@ -148,15 +148,17 @@ void ColorManager::to_working(float *pixels, std::size_t count, int channels) co
     apply(in_, pixels, count, channels);
 }
 
-void ColorManager::file_to_working(const ImageFile &file, float *pixels, std::size_t count, int channels) const
+void ColorManager::file_to_working(Frame &frame) const
 {
-    const auto &said = file.source().color_space;
+    const auto &said = frame.file.source().color_space;
     if (!said || said->empty())
         return;
     const std::string space = config_ ? name_in_config(*said) : "";
     if (space.empty())
-        throw FrameError(fmt::format("{}: pixels are {}, which {} does not have", file.path().string(), *said, source_));
-    apply(processor(space, ocio::ROLE_SCENE_LINEAR), pixels, count, channels);
+        throw FrameError(
+            fmt::format("{}: pixels are {}, which {} does not have", frame.file.path().string(), *said, source_));
+    apply(processor(space, ocio::ROLE_SCENE_LINEAR), frame.pixels.data(), frame.pixels.size() / std::size_t(frame.channels),
+          frame.channels);
 }
 
 void ColorManager::from_working(float *pixels, std::size_t count, int channels) const

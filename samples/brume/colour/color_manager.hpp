@@ -8,7 +8,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
-#include "image/file.hpp"
+#include "image/frame.hpp"
 #include "metrics/metrics.hpp"
 
 namespace brume::tool {
@@ -29,9 +29,9 @@ public:
     void to_working(float *pixels, std::size_t count, int channels) const;
     void from_working(float *pixels, std::size_t count, int channels) const;
 
-    /// The same of one file's pixels where nobody asked: by what it says of them; as they are where it says nothing. Throws
+    /// The same where nobody asked: by what the frame's file says of its pixels; as they are where it says nothing. Throws
     /// FrameError.
-    void file_to_working(const ImageFile &file, float *pixels, std::size_t count, int channels) const;
+    void file_to_working(Frame &frame) const;
 
     /// Whether pixels leave in another space than they came in, so that `chromaticities` no longer holds.
     bool changes_space() const { return changes_space_; }

@@ -33,7 +33,7 @@ struct InfoOptions {
 
 ordered_json window_of(const Window &w)
 {
-    return {{"x", w.min.x}, {"y", w.min.y}, {"width", w.max.x - w.min.x + 1}, {"height", w.max.y - w.min.y + 1}};
+    return {{"x", w.min.x}, {"y", w.min.y}, {"width", w.width()}, {"height", w.height()}};
 }
 
 ordered_json parts_of(const ImageFile &file)

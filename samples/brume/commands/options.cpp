@@ -1,27 +1,18 @@
 #include "commands/options.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "image/formats.hpp"
+#include "colour/color_manager.hpp"
 #include "frames/pattern.hpp"
+#include "image/formats.hpp"
 #include "support/error.hpp"
+#include "support/text.hpp"
 
 namespace brume::tool {
-namespace {
-
-bool parse_number(const std::string &text, double &value)
-{
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-}
-
-}  // namespace
-
 DepthKind DepthKind::parse(const std::string &text)
 {
     if (text == "planar")
@@ -84,6 +75,20 @@ Sky Sky::parse(const std::string &text)
 std::string Sky::text() const
 {
     return type == kFog ? "fog" : type == kKeep ? "keep" : fmt::format("clamp:{}", distance);
+}
+
+void add_output_options(CLI::App &command, ColorRequest &spaces, std::string &output_type)
+{
+    command
+        .add_option("--input-space", spaces.input_space,
+                    "Colour space of the pixels (default: what the file says, or scene_linear of the config)")
+        ->type_name("SPACE");
+    command.add_option("--output-space", spaces.output_space, "Colour space to write (default: as they came)")
+        ->type_name("SPACE");
+    command
+        .add_option("--output-type", output_type,
+                    "uint8, uint16, half or float, for outputs that are no rewritten EXR (default: what loses least)")
+        ->type_name("TYPE");
 }
 
 void PictureOptions::add_to(CLI::App &command)

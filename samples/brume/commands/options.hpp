@@ -32,6 +32,11 @@ struct Sky {
     std::string text() const;
 };
 
+struct ColorRequest;
+
+/// --input-space, --output-space and --output-type.
+void add_output_options(CLI::App &command, ColorRequest &spaces, std::string &output_type);
+
 /// What the commands that look at one picture have in common.
 struct PictureOptions {
     LayerRequest layers;

@@ -21,16 +21,7 @@ void add_run(CLI::App &app, Action &chosen)
         ->type_name("OUTPUT");
     command->add_option("--frames", options->frames, "Frames such as 1-100x2,200 (default: all that exist)")
         ->type_name("RANGE");
-    command
-        ->add_option("--input-space", options->spaces.input_space,
-                     "Colour space of the pixels (default: what the file says, or scene_linear of the config)")
-        ->type_name("SPACE");
-    command->add_option("--output-space", options->spaces.output_space, "Colour space to write (default: as they came)")
-        ->type_name("SPACE");
-    command
-        ->add_option("--output-type", options->output_type,
-                     "uint8, uint16, half or float, for outputs that are no rewritten EXR (default: what loses least)")
-        ->type_name("TYPE");
+    add_output_options(*command, options->spaces, options->output_type);
     command
         ->add_option("--preview", options->preview,
                      "PNG through the default view; of the first frame unless it has a frame number too")

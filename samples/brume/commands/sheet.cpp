@@ -62,8 +62,7 @@ Thumbnail load(const std::filesystem::path &path, const ColorManager &colors, in
     ImageFile file(path);
     const ColorChoice color = resolve_color(file, {});
     Frame frame = read_frame(std::move(file), color, nullptr);
-    colors.file_to_working(frame.file, frame.pixels.data(), std::size_t(frame.width) * std::size_t(frame.height),
-                           frame.channels);
+    colors.file_to_working(frame);
     return shrink(frame, width);
 }
 

@@ -32,16 +32,7 @@ void add_sweep(CLI::App &app, Action &chosen)
             "Also write what of the light arrives straight, 0 to 1: a pattern such as t.####.png (16 bits), .exr or "
             ".npy")
         ->type_name("OUTPUT");
-    command
-        ->add_option("--input-space", options->spaces.input_space,
-                     "Colour space of the pixels (default: what the file says, or scene_linear of the config)")
-        ->type_name("SPACE");
-    command->add_option("--output-space", options->spaces.output_space, "Colour space to write (default: as they came)")
-        ->type_name("SPACE");
-    command
-        ->add_option("--output-type", options->output_type,
-                     "uint8, uint16, half or float, for outputs that are no rewritten EXR (default: what loses least)")
-        ->type_name("TYPE");
+    add_output_options(*command, options->spaces, options->output_type);
     command->callback([&chosen, options] { chosen = [options] { return run_sweep(*options); }; });
 }
 

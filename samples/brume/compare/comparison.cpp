@@ -30,7 +30,7 @@ Loaded load(const std::string &path, const LayerRequest &request, const ColorMan
     const ColorChoice color = resolve_color(file, request);
     const LuminanceWeights weights = colors.luminance_weights(file.part(color.part));
     Frame frame = read_frame(file, color, nullptr);
-    colors.file_to_working(file, frame.pixels.data(), std::size_t(frame.width) * std::size_t(frame.height), frame.channels);
+    colors.file_to_working(frame);
     const Window &window = frame.part().data_window;
     Picture picture{window.min.x, window.min.y, frame.width, frame.height, {}};
     if (frame.channels == 3) {

@@ -16,14 +16,12 @@ HarmonicsRgb project_file(const std::string &path, std::uint32_t up)
     ImageFile file(path);
     const ColorChoice color = resolve_color(file, {});
     Frame frame = read_frame(std::move(file), color, nullptr);
-    ColorManager().file_to_working(frame.file, frame.pixels.data(), frame.pixels.size() / std::size_t(frame.channels),
-                                   frame.channels);
+    ColorManager().file_to_working(frame);
     const Window whole = frame.file.part(color.part).display_window, &data = frame.part().data_window;
-    const int width = whole.max.x - whole.min.x + 1, height = whole.max.y - whole.min.y + 1;
     if (!whole.contains(data.min) || !whole.contains(data.max))
         throw FrameError(fmt::format("{}: pixels outside the display window; expected a lat-long image within it", path));
-    return project_latlong({width, height, data.min.x - whole.min.x, data.min.y - whole.min.y, frame.width, frame.height,
-                            frame.pixels, frame.channels},
+    return project_latlong({whole.width(), whole.height(), data.min.x - whole.min.x, data.min.y - whole.min.y, frame.width,
+                            frame.height, frame.pixels, frame.channels},
                            up);
 }
 

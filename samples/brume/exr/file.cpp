@@ -19,19 +19,10 @@
 
 #include "exr/planes.hpp"
 #include "support/error.hpp"
+#include "support/text.hpp"
 
 namespace brume::tool {
 namespace {
-
-std::vector<std::string> split(const std::string &name)
-{
-    std::vector<std::string> parts;
-    std::size_t from = 0;
-    for (std::size_t dot; (dot = name.find('.', from)) != std::string::npos; from = dot + 1)
-        parts.push_back(name.substr(from, dot - from));
-    parts.push_back(name.substr(from));
-    return parts;
-}
 
 SampleType type_of(Imf::PixelType type)
 {
@@ -44,7 +35,7 @@ ChannelInfo take_apart(const std::string &name, const Imf::Channel &channel, con
                        const std::string &part_view)
 {
     ChannelInfo info{name, "", part_view, "", type_of(channel.type), {channel.xSampling, channel.ySampling}};
-    auto components = split(name);
+    auto components = split(name, '.');
     info.base = components.back();
     components.pop_back();
     if (!views.empty()) {
@@ -178,6 +169,11 @@ Imf::PixelType exr_type(SampleType type)
 Imath::Box2i exr_window(const Window &w)
 {
     return {{w.min.x, w.min.y}, {w.max.x, w.max.y}};
+}
+
+Imf::Chromaticities exr_chromaticities(const Chromaticities &c)
+{
+    return {c.red, c.green, c.blue, c.white};
 }
 
 const ExrSource *exr_of(const ImageFile &file)

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <ImathBox.h>
+#include <ImfChromaticities.h>
 #include <ImfCompression.h>
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>
@@ -15,6 +16,7 @@ namespace brume::tool {
 
 Imf::PixelType exr_type(SampleType type);
 Imath::Box2i exr_window(const Window &window);
+Imf::Chromaticities exr_chromaticities(const Chromaticities &c);
 
 /// What a header says of its part.
 PartInfo part_of(const Imf::Header &header, int index = 0);

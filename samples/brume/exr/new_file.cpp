@@ -5,12 +5,9 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
-#include <fmt/format.h>
 
 #include "exr/output_stream.hpp"
 #include "exr/planes.hpp"
-#include "support/error.hpp"
-#include "support/pending_file.hpp"
 
 namespace brume::tool {
 
@@ -20,7 +17,7 @@ std::uint64_t write_new_exr(const std::filesystem::path &output, const NewPictur
     for (const auto &[name, text] : picture.texts)
         header.insert(name, Imf::StringAttribute(text));
     if (const auto &c = picture.chromaticities)
-        Imf::addChromaticities(header, {c->red, c->green, c->blue, c->white});
+        Imf::addChromaticities(header, exr_chromaticities(*c));
     const std::size_t count = std::size_t(picture.data.width()) * std::size_t(picture.data.height());
     std::atomic<std::uint64_t> clamped{0};
     std::vector<Plane> planes;
@@ -34,19 +31,11 @@ std::uint64_t write_new_exr(const std::filesystem::path &output, const NewPictur
     }
     for (const Plane &plane : planes)
         buffer.insert(plane.channel.name, slice_of(plane, picture.data));
-    PendingFile pending(output);
-    OutputStream stream(pending.path().string(), output.string());
-    try {
+    write_whole(output, [&](OutputStream &stream) {
         Imf::OutputFile file(stream, header);
         file.setFrameBuffer(buffer);
         file.writePixels(picture.data.height());
-    } catch (const FrameError &) {
-        throw;
-    } catch (const std::exception &e) {
-        throw FrameError(fmt::format("{}: writing: {}", output.string(), e.what()));
-    }
-    stream.close();
-    pending.commit();
+    });
     return clamped;
 }
 

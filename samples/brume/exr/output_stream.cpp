@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "support/error.hpp"
+#include "support/pending_file.hpp"
 
 namespace brume::tool {
 
@@ -46,6 +47,21 @@ void OutputStream::close()
         fail();
     if (std::fclose(file_.release()) != 0)
         fail();
+}
+
+void write_whole(const std::filesystem::path &output, const std::function<void(OutputStream &)> &write)
+{
+    PendingFile pending(output);
+    OutputStream stream(pending.path().string(), output.string());
+    try {
+        write(stream);
+    } catch (const FrameError &) {
+        throw;
+    } catch (const std::exception &e) {
+        throw FrameError(fmt::format("{}: writing: {}", output.string(), e.what()));
+    }
+    stream.close();
+    pending.commit();
 }
 
 }  // namespace brume::tool

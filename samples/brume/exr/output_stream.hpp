@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -31,5 +33,8 @@ private:
     std::unique_ptr<std::FILE, Closer> file_;
     int error_ = 0;
 };
+
+/// Whole under its name or not at all. Throws FrameError that names it.
+void write_whole(const std::filesystem::path &output, const std::function<void(OutputStream &)> &write);
 
 }  // namespace brume::tool

@@ -7,7 +7,7 @@
 #include <ImathFun.h>
 #include <ImfFrameBuffer.h>
 
-#include "image/frame.hpp"
+#include "exr/file.hpp"
 
 namespace brume::tool {
 

@@ -24,8 +24,6 @@
 
 #include "exr/output_stream.hpp"
 #include "exr/planes.hpp"
-#include "support/error.hpp"
-#include "support/pending_file.hpp"
 
 namespace brume::tool {
 namespace {
@@ -223,26 +221,17 @@ WriteReport rewrite_exr(const Frame &frame, const std::vector<AddedLayer> &layer
         if (options.primaries_changed)
             headers.back().erase("chromaticities");
         if (options.primaries_changed && options.chromaticities && alone)
-            Imf::addChromaticities(headers.back(), {options.chromaticities->red, options.chromaticities->green,
-                                                    options.chromaticities->blue, options.chromaticities->white});
+            Imf::addChromaticities(headers.back(), exr_chromaticities(*options.chromaticities));
     }
 
-    PendingFile pending(output);
-    OutputStream stream(pending.path().string(), output.string());
-    try {
+    write_whole(output, [&](OutputStream &stream) {
         Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()));
         for (const PartInfo &part : frame.file.parts())
             if (part.index == frame.color.part && !copied)
                 write_pixels(file, frame, outgoing);
             else
                 copy_undecoded(exr, file, part);
-    } catch (const FrameError &) {
-        throw;
-    } catch (const std::exception &e) {
-        throw FrameError(fmt::format("{}: writing: {}", output.string(), e.what()));
-    }
-    stream.close();
-    pending.commit();
+    });
     return report;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <fstream>
@@ -217,12 +218,12 @@ bool is_array(const Format &format)
     return name == "pfm" || name == "npy";
 }
 
-std::unique_ptr<PictureSource> open_array(const std::filesystem::path &file, const ReadLimits &limits)
+std::unique_ptr<PictureSource> open_array(const std::filesystem::path &file, const Format &format, const ReadLimits &limits)
 {
     std::ifstream in(file, std::ios::binary);
     if (!in)
         fail(file, "cannot be opened for reading");
-    const bool npy = std::string_view(format_of(file)->name) == "npy";
+    const bool npy = std::string_view(format.name) == "npy";
     const Layout layout = npy ? read_npy_header(file, in) : read_pfm_header(file, in);
     if (layout.width < 1 || layout.height < 1 || layout.width > limits.side || layout.height > limits.side)
         fail(file, fmt::format("{} x {} pixels (expected 1 to {} each way)", layout.width, layout.height, limits.side));

@@ -11,7 +11,7 @@ bool is_array(const Format &format);
 
 /// NPY arrays of two dimensions, or of three whose last one are channels, in either order of bytes and of dimensions. Throws
 /// FrameError.
-std::unique_ptr<PictureSource> open_array(const std::filesystem::path &file, const ReadLimits &limits);
+std::unique_ptr<PictureSource> open_array(const std::filesystem::path &file, const Format &format, const ReadLimits &limits);
 
 /// Of floats. Errors name `final_name`.
 void write_array(const std::filesystem::path &file, const std::string &final_name, const Format &format,

@@ -14,7 +14,7 @@ std::shared_ptr<const PictureSource> open(const std::filesystem::path &path, con
     if (!format || is_exr(*format))
         return std::make_shared<ExrSource>(path, limits);
     if (is_array(*format))
-        return open_array(path, limits);
+        return open_array(path, *format, limits);
     return image_library().open(path, format->name, limits);
 }
 

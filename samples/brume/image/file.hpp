@@ -15,7 +15,7 @@ namespace brume::tool {
 class StoredPixels {
 public:
     virtual ~StoredPixels() = default;
-    /// Row by row, `stride` floats apart; only of channels at full resolution. Normalized integers become 0 to 1.
+    /// Row by row, `stride` floats apart; only of channels at full resolution. Numbers as they are stored, integers too.
     virtual void to_floats(const std::string &channel, float *out, std::size_t stride) const = 0;
 };
 
@@ -30,8 +30,8 @@ public:
     /// Of the pixels, as the file says or its format has it; empty: scene-linear; none: they are integers of which nothing
     /// is said.
     std::optional<std::string> color_space = "";
-    std::string color_note;       ///< why there is none
-    bool straight_alpha = false;  ///< colour is not multiplied by alpha
+    std::string color_note = "the file does not say";  ///< why there is none
+    bool straight_alpha = false;                       ///< colour is not multiplied by alpha
 };
 
 /// A picture's file, whose headers have been read and found sane. Copies share it.

@@ -34,6 +34,11 @@ const std::vector<Ending> &endings()
 
 }  // namespace
 
+bool Format::has(SampleType type) const
+{
+    return std::find(types.begin(), types.end(), type) != types.end();
+}
+
 const Format *format_of(const std::filesystem::path &file)
 {
     const std::string name = lower(file.filename().string());
@@ -73,14 +78,8 @@ SampleType type_to_write(const std::string &output, SampleType stored, const std
     const Format *format = format_of(output);
     if (!format)
         throw RequestError(fmt::format("{}: expected a name that ends in one of {}", output, known_endings()));
-    const auto has = [&](SampleType type) {
-        return std::find(format->types.begin(), format->types.end(), type) != format->types.end();
-    };
-    if (asked.empty()) {
-        if (has(stored))
-            return stored;
-        return format->types.front();
-    }
+    if (asked.empty())
+        return format->has(stored) ? stored : format->types.front();
     std::string names;
     for (const SampleType type : format->types) {
         if (asked == name_of(type))

@@ -13,6 +13,8 @@ struct Format {
     const char *name;               ///< as OpenImageIO has it
     bool has_alpha;                 ///< pictures with alpha can be written
     std::vector<SampleType> types;  ///< that can be written, the one for radiance first
+
+    bool has(SampleType type) const;
 };
 
 /// Null where the name ends in none that is known.

@@ -23,6 +23,7 @@ struct ColorChoice {
     std::string reason;
 
     std::string label() const;
+    SampleType type_in(const ImageFile &file) const { return file.part(part).find(rgb[0])->type; }
 };
 
 struct DepthChoice {

@@ -166,7 +166,8 @@ InputChoice resolved(const ImageFile &file, const std::string &role, const std::
 
 }  // namespace
 
-InputChoice resolve_input(const ImageFile &file, const std::string &role, const std::string &wanted, const ColorChoice *color)
+InputChoice resolve_input(const ImageFile &file, const std::string &role, const std::string &wanted,
+                          const ColorChoice *color)
 {
     return resolved(file, role, wanted, color, fmt::format("--input {}={}", role, wanted), "as asked by --input");
 }

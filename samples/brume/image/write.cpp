@@ -114,7 +114,8 @@ WriteReport write_raster(const Frame &frame, const std::filesystem::path &output
                          const WriteOptions &options)
 {
     WriteReport report;
-    const Channels channels = channels_of(frame, format.has_alpha && !(is_array(format) && frame.color.luminance));
+    const bool grey_array = is_array(format) && frame.color.luminance, has_alpha = format.has_alpha && !grey_array;
+    const Channels channels = channels_of(frame, has_alpha);
     Raster raster{frame.width, frame.height, channels.names, type};
     raster.color_space = options.color_space;
     raster.straight_alpha = is_normalized(type);
@@ -140,8 +141,9 @@ WriteReport write_raster(const Frame &frame, const std::filesystem::path &output
     if (clipped > 0)
         report.warnings.push_back(
             fmt::format("{} values beyond 0 to 1, all that {} holds, were clipped", report.clamped, name_of(type)));
-    if (frame.channels == 4 && !format.has_alpha)
-        report.warnings.push_back(fmt::format("alpha is not written: {} has none", format.name));
+    if (frame.channels == 4 && !has_alpha)
+        report.warnings.push_back(
+            fmt::format("alpha is not written: {}{} has none", grey_array ? "grey " : "", format.name));
     if (frame.part().data_window != frame.part().display_window)
         report.warnings.push_back(fmt::format("{} has no windows: the data window's {} x {} pixels are written", format.name,
                                               frame.width, frame.height));
@@ -167,12 +169,9 @@ void write_layer(const Frame &frame, const AddedLayer &layer, const std::filesys
     alone.color.luminance = true;
     for (std::size_t i = 0; i < alone.pixels.size() && alone.color.luminance; ++i)
         alone.color.luminance = alone.pixels[i] == alone.pixels[i - i % std::size_t(layer.channels)];
-    const auto has = [&](SampleType type) {
-        return std::find(format->types.begin(), format->types.end(), type) != format->types.end();
-    };
-    const SampleType type = has(SampleType::kFloat)    ? SampleType::kFloat
-                            : has(SampleType::kUint16) ? SampleType::kUint16
-                                                       : SampleType::kUint8;
+    const SampleType type = format->has(SampleType::kFloat)    ? SampleType::kFloat
+                            : format->has(SampleType::kUint16) ? SampleType::kUint16
+                                                               : SampleType::kUint8;
     WriteOptions options;
     options.color_space = "Linear";
     if (is_exr(*format))
@@ -184,7 +183,7 @@ void write_layer(const Frame &frame, const AddedLayer &layer, const std::filesys
 bool writes_straight_alpha(const Frame &frame, const std::filesystem::path &output, const std::string &type)
 {
     const Format *format = format_of(output);
-    return format && is_normalized(type_to_write(output.string(), frame.part().find(frame.color.rgb[0])->type, type));
+    return format && is_normalized(type_to_write(output.string(), frame.color.type_in(frame.file), type));
 }
 
 WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layers, const std::filesystem::path &output,
@@ -195,11 +194,10 @@ WriteReport write_frame(const Frame &frame, const std::vector<AddedLayer> &layer
         if (exr_of(frame.file))
             return rewrite_exr(frame, layers, output, options);
         const SampleType type =
-            format ? type_to_write(output.string(), frame.part().find(frame.color.rgb[0])->type, options.type)
-                   : SampleType::kHalf;
+            format ? type_to_write(output.string(), frame.color.type_in(frame.file), options.type) : SampleType::kHalf;
         return write_new(frame, layers, output, type, options);
     }
-    const SampleType type = type_to_write(output.string(), frame.part().find(frame.color.rgb[0])->type, options.type);
+    const SampleType type = type_to_write(output.string(), frame.color.type_in(frame.file), options.type);
     return write_raster(frame, output, *format, type, options);
 }
 

@@ -1,7 +1,9 @@
 #include "run/checks.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "image/formats.hpp"
 #include "image/narrow.hpp"
@@ -114,6 +117,17 @@ void check_outputs(const SequenceOptions &options, const std::vector<FrameFile> 
         if (const auto id = id_of(output); id && inputs.contains(*id))
             throw RequestError(fmt::format("{}: would overwrite the input {} (expected another place)", output.string(),
                                            inputs[*id].string()));
+}
+
+void make_folder_of(const std::filesystem::path &output)
+{
+    const std::filesystem::path folder = output.parent_path();
+    std::error_code error;
+    if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error)
+        throw RequestError(fmt::format("{}: the output's folder cannot be made: {}", folder.string(), error.message()));
+    if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+        throw RequestError(
+            fmt::format("{}: the output's folder cannot be written to: {}", folder.string(), std::strerror(errno)));
 }
 
 }  // namespace brume::tool

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -25,11 +26,10 @@ double detail_of(const ImageFile &file, const ColorChoice &color)
     const PartInfo &part = file.parts()[color.part];
     Picture picture{0, 0, part.width(), part.height(), {}};
     picture.rgb.resize(std::size_t(picture.width) * std::size_t(picture.height) * 3);
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::vector<float> channel = read_channel(file, color.part, color.rgb[c]);
-        for (std::size_t i = 0; i < channel.size(); ++i)
-            picture.rgb[3 * i + c] = channel[i];
-    }
+    const std::set<std::string> channels(color.rgb.begin(), color.rgb.end());  // of a grey picture one
+    const auto stored = file.source().read(color.part, {channels.begin(), channels.end()});
+    for (std::size_t c = 0; c < 3; ++c)
+        stored->to_floats(color.rgb[c], picture.rgb.data() + c, 3);
     return std::sqrt(measure(box_blurred(picture, 4), picture).relative_mse);
 }
 

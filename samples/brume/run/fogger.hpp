@@ -28,7 +28,7 @@ struct FogOptions {
     PictureOptions picture;
 
     void add_to(CLI::App &command);
-    void add_scene_to(CLI::App &command);  ///< all but `layers` and `inputs`
+    void add_scene_to(CLI::App &command);  ///< scene, backend, `set` and picture alone
 };
 
 struct PassTime {

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "image/formats.hpp"
 #include "frames/pattern.hpp"
+#include "image/formats.hpp"
 #include "run/layers.hpp"
 #include "support/error.hpp"
 #include "support/nearest.hpp"
@@ -22,7 +22,7 @@ void check_display(const ImageFile &file, const ColorChoice &color, const OpenIn
     const Window &display = file.part(color.part).display_window;
     const Window &other = input.file->part(input.choice.part).display_window;
     const auto text = [](const Window &w) {
-        return fmt::format("{} x {} at ({}, {})", w.max.x - w.min.x + 1, w.max.y - w.min.y + 1, w.min.x, w.min.y);
+        return fmt::format("{} x {} at ({}, {})", w.width(), w.height(), w.min.x, w.min.y);
     };
     if (other != display)
         throw RequestError(fmt::format("{}: --input {}: '{}' has the display window {}; expected {}, as {} has",

@@ -1,5 +1,6 @@
 #include "run/progress.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -15,6 +16,12 @@ std::string clock_text(double seconds)
     const long s = std::lround(seconds);
     return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
                      : fmt::format("{}:{:02}", s / 60, s % 60);
+}
+
+bool WarningKinds::is_new(std::string warning)
+{
+    std::erase_if(warning, [](unsigned char c) { return std::isdigit(c); });
+    return seen_.insert(std::move(warning)).second;
 }
 
 Progress::Progress(std::size_t total, bool quiet)

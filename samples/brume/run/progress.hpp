@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <set>
 #include <string>
 
 namespace brume::tool {
@@ -25,6 +26,15 @@ private:
     std::size_t total_, finished_ = 0;
     bool quiet_, terminal_, drawn_ = false;
     std::chrono::steady_clock::time_point start_;
+};
+
+/// Counts in warnings differ from frame to frame: one line for each kind is enough.
+class WarningKinds {
+public:
+    bool is_new(std::string warning);
+
+private:
+    std::set<std::string> seen_;
 };
 
 /// "3:07" or "1:02:09".

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <memory>
-#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
-#include <unistd.h>
 
 #include "colour/png.hpp"
 #include "image/library.hpp"
@@ -77,7 +72,8 @@ public:
         if (options_.frames.empty())
             for (const std::string &note : sequence_notes(FilePattern(options_.input)))
                 progress_.note(note);
-        make_folders();
+        for (const std::size_t i : to_do_)
+            make_folder_of(run_.frames[i].files.output);
         catch_interrupts();
         progress_ = Progress(to_do_.size(), options_.quiet);
         const auto start = std::chrono::steady_clock::now();
@@ -126,20 +122,6 @@ private:
                 fmt::format("warning: one frame takes about {} MiB, more than the {} MiB of --mem; going on one at a time",
                             (bytes + fogging) >> 20, limits_.part_bytes >> 20));
         set_image_threads(int(threads));
-    }
-
-    void make_folders()
-    {
-        for (const std::size_t i : to_do_) {
-            const auto folder = run_.frames[i].files.output.parent_path();
-            std::error_code error;
-            if (!folder.empty() && !std::filesystem::create_directories(folder, error) && error)
-                throw RequestError(
-                    fmt::format("{}: the output's folder cannot be made: {}", folder.string(), error.message()));
-            if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
-                throw RequestError(
-                    fmt::format("{}: the output's folder cannot be written to: {}", folder.string(), std::strerror(errno)));
-        }
     }
 
     void pipeline()
@@ -244,10 +226,8 @@ private:
             return;
         }
         for (const std::string &warning : stats.warnings) {
-            // Counts differ from frame to frame; one line for each kind is enough, --stats has them all.
-            std::string kind = warning;
-            std::erase_if(kind, [](unsigned char c) { return std::isdigit(c); });
-            if (warned_.insert(kind).second)
+            // --stats has them all.
+            if (warned_.is_new(warning))
                 progress_.note(fmt::format("warning: {}: {}", stats.files.input.string(), warning));
         }
         progress_.done(stats.files.output.string(), (stats.read_ms + stats.fog_ms + stats.write_ms) / 1000);
@@ -283,7 +263,7 @@ private:
     std::vector<std::size_t> to_do_;
     std::size_t next_ = 0;
     std::atomic<bool> stop_{false};
-    std::set<std::string> warned_;
+    WarningKinds warned_;
 };
 
 }  // namespace

@@ -9,13 +9,13 @@ namespace brume::tool {
 brume_format format_of(const Window &data, const Window &display, const PictureOptions &options)
 {
     brume_format format = BRUME_FORMAT_INIT;
-    format.width = data.max.x - data.min.x + 1;
-    format.height = data.max.y - data.min.y + 1;
+    format.width = data.width();
+    format.height = data.height();
     // Rays come from the display window, whatever part of it, or of what surrounds it, the data window covers.
     format.display_x = display.min.x - data.min.x;
     format.display_y = display.min.y - data.min.y;
-    format.display_width = display.max.x - display.min.x + 1;
-    format.display_height = display.max.y - display.min.y + 1;
+    format.display_width = display.width();
+    format.display_height = display.height();
     const DepthKind kind = options.depth_kind();
     constexpr std::uint32_t kinds[] = {BRUME_DEPTH_PLANAR, BRUME_DEPTH_RAY, BRUME_DEPTH_INVERSE, BRUME_DEPTH_NORMALIZED,
                                        BRUME_DEPTH_PLANAR};

@@ -29,7 +29,7 @@ ColorRequest spaces_of(const ColorRequest &asked, const std::vector<FrameFile> &
         try {
             const ImageFile file(f.input, limits);
             const ColorChoice color = resolve_color(file, layers);
-            const SampleType stored = file.part(color.part).find(color.rgb[0])->type;
+            const SampleType stored = color.type_in(file);
             const SampleType written = type_to_write(output, stored, output_type);
             if (!output_type.empty() && is_rewrite(output) && is_rewrite(f.input))
                 throw RequestError(fmt::format("--output-type {}: channels of an EXR file keep their types", output_type));
@@ -38,8 +38,7 @@ ColorRequest spaces_of(const ColorRequest &asked, const std::vector<FrameFile> &
                 const auto &said = file.source().color_space;
                 if (!said)
                     throw RequestError(
-                        fmt::format("{}: pixels are {}, and {} in which colour space; expected --input-space, "
-                                    "such as sRGB",
+                        fmt::format("{}: pixels are {} of an unknown colour space: {}; expected --input-space, such as sRGB",
                                     f.input.string(), name_of(stored), file.source().color_note));
                 spaces.input_space = *said;
             }

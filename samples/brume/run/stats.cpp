@@ -114,13 +114,7 @@ void write_stats(const std::filesystem::path &file, const RunStats &stats)
             throw FrameError(fmt::format("{}: cannot be written", file.string()));
         return;
     }
-    PendingFile pending(file);
-    std::ofstream stream(pending.path());
-    stream << text;
-    stream.close();
-    if (!stream)
-        throw FrameError(fmt::format("{}: cannot be written", file.string()));
-    pending.commit();
+    write_text_file(file, text);
 }
 
 }  // namespace brume::tool

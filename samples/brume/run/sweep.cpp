@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include "run/checks.hpp"
 #include "run/interrupt.hpp"
 #include "run/picture_io.hpp"
+#include "run/progress.hpp"
 #include "run/scene.hpp"
 #include "run/vary.hpp"
 #include "support/error.hpp"
@@ -57,7 +57,7 @@ class Sweep {
 public:
     Sweep(const SweepOptions &options, const FrameFile &input, std::vector<FrameFile> outputs)
         : options_(options), input_(input), outputs_(std::move(outputs)), transmittance_(options.transmittance),
-          io_({options.fog.picture, options.spaces, options.output, options.output_type, {}}, outputs_),
+          io_({options.fog.picture, options.spaces, options.output, options.output_type, {}}, {input}),
           fogger_(with_transmittance(options))
     {
         for (const std::string &text : options.vary)
@@ -82,7 +82,9 @@ public:
         stats.warnings.clear();
         fogger_.plan_for(frame.file, frame.color, weights_,
                          roles_of(fogger_.open_inputs(frame.file, frame.color, input_.frame, io_.limits())), input_.frame);
-        make_folders();
+        make_folder_of(options_.output);
+        if (!options_.transmittance.empty())
+            make_folder_of(options_.transmittance);
         catch_interrupts();
         int next = 1;
         tbb::parallel_pipeline(
@@ -166,19 +168,9 @@ private:
         return sample;
     }
 
-    void make_folders() const
-    {
-        for (const std::string &output : {options_.output, options_.transmittance})
-            if (const auto folder = std::filesystem::path(output).parent_path(); !folder.empty())
-                std::filesystem::create_directories(folder);
-    }
-
     void note(const std::string &warning)
     {
-        // Counts differ from sample to sample; one line for each kind is enough.
-        std::string kind = warning;
-        std::erase_if(kind, [](unsigned char c) { return std::isdigit(c); });
-        if (warned_.insert(kind).second)
+        if (warned_.is_new(warning))
             fmt::print(stderr, "warning: {}: {}\n", printable(options_.input), printable(warning));
     }
 
@@ -191,7 +183,7 @@ private:
     std::vector<Variation> variations_;
     ordered_json scene_;
     LuminanceWeights weights_{};
-    std::set<std::string> warned_;
+    WarningKinds warned_;
     int done_ = 0;
 };
 

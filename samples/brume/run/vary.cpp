@@ -7,27 +7,12 @@
 #include <fmt/format.h>
 
 #include "support/error.hpp"
+#include "support/text.hpp"
 
 namespace brume::tool {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::vector<std::string> split(const std::string &text, char at)
-{
-    std::vector<std::string> parts;
-    std::size_t from = 0;
-    for (std::size_t to; (to = text.find(at, from)) != std::string::npos; from = to + 1)
-        parts.push_back(text.substr(from, to - from));
-    parts.push_back(text.substr(from));
-    return parts;
-}
-
-bool parse_number(std::string_view text, double &value)
-{
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-}
 
 /// SplitMix64's, of Steele, Lea and Flood 2014.
 std::uint64_t mixed(std::uint64_t h)

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <charconv>
+#include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace brume::tool {
 
@@ -12,6 +16,23 @@ inline std::string printable(std::string text)
         if ((unsigned char)c < 0x20 || c == 0x7f)
             c = '?';
     return text;
+}
+
+inline std::vector<std::string> split(const std::string &text, char at)
+{
+    std::vector<std::string> parts;
+    std::size_t from = 0;
+    for (std::size_t to; (to = text.find(at, from)) != std::string::npos; from = to + 1)
+        parts.push_back(text.substr(from, to - from));
+    parts.push_back(text.substr(from));
+    return parts;
+}
+
+/// Whether the whole text is a finite number.
+inline bool parse_number(std::string_view text, double &value)
+{
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
 }  // namespace brume::tool

@@ -173,7 +173,7 @@ private:
             const std::string_view wide("s\0R\0G\0B", 7);
             if (text.find("sRGB") == text.npos && text.find(wide) == text.npos) {
                 color_space = std::nullopt;
-                color_note = "it has a colour profile that is not sRGB's";
+                color_note = "the file has a colour profile that is not sRGB's";
                 return;
             }
             color_space = "sRGB";
@@ -183,7 +183,8 @@ private:
             color_space = "";
         } else {
             color_space = std::nullopt;
-            color_note = said.empty() ? "it does not say" : fmt::format("it says '{}'", said);
+            if (!said.empty())
+                color_note = fmt::format("the file says '{}'", said);
         }
     }
 

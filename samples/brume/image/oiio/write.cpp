@@ -59,7 +59,9 @@ void write_picture(const std::filesystem::path &file, const std::string &final_n
     spec.alpha_channel = alpha == raster.channels.end() ? -1 : int(alpha - raster.channels.begin());
     if (raster.straight_alpha)
         spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (!raster.color_space.empty())
+    // For sRGB's sake OpenImageIO 2.4 adds an EXIF directory to a TIFF, and the header points to that and no more to the
+    // picture.
+    if (!raster.color_space.empty() && format != "tiff")
         spec.attribute("oiio:ColorSpace", raster.color_space);
     if (raster.pixel_aspect != 1)
         spec.attribute("PixelAspectRatio", float(raster.pixel_aspect));
