@@ -8,7 +8,7 @@ import numpy as np
 from . import _abi, _library
 from ._images import as_image_array, check_size, input_image, output_image
 from ._session import Progress
-from .context import Child, Layer, chosen
+from .context import Child, chosen, default_context
 from .errors import ArgumentError
 from .scene import Scene, SceneSource, camera_struct, number, numbers
 
@@ -129,13 +129,14 @@ class Plan(Child):
             wanted.add(name)
         fmt.input_count, fmt.inputs = len(given.structs), given.array()
         fmt.output_count, fmt.outputs = len(wanted.structs), wanted.array()
-        self._known: Dict[str, Layer] = self._context.output_layers() if wanted.structs else {}
-        self._any_size = {layer.name for effect in self._context.effects().values() for layer in effect.layers
-                          if layer.any_size} if given.structs else set()
+        known = [layer for effect in self._context.effects().values() for layer in effect.layers] \
+            if given.structs or wanted.structs else []
+        self._channels = {layer.name: layer.channels for layer in known if layer.output}
+        self._any_size = {layer.name for layer in known if layer.any_size}
         handle = ctypes.c_void_p()
         self._session.call(lib.brume_plan_create, scene.handle(), ctypes.byref(fmt), ctypes.byref(handle))
         self._hold(handle)
-        self._format, self._lists = fmt, (given, wanted)
+        self._kinds = {layer.name.decode(): layer.kind for layer in given.structs}
 
     @staticmethod
     def _names(names: Iterable[str], argument: str) -> List[str]:
@@ -189,11 +190,10 @@ class Plan(Child):
             if name not in self._any_size:
                 check_size(array, f"inputs[{key!r}]", self._size, "the plan")
             given.kept.append(array)
-            given.add(name, light, image, next((layer.kind for layer in self._lists[0].structs
-                                                if layer.name.decode() == name), 0))
+            given.add(name, light, image, self._kinds.get(name, 0))
         for key, value in self._items(layers, "layers").items():
             name, light = _name_and_light(key, "layers")
-            channels = self._known[name].channels if name in self._known else 3
+            channels = self._channels.get(name, 3)
             if value is None:
                 value = np.empty(self._size if channels == 1 else (*self._size, channels), np.float32)
             image, array = output_image(value, f"layers[{key!r}]", (1,) if channels == 1 else (3, 4))
@@ -278,8 +278,6 @@ def fog(color: Any, depth: Any, scene: Union[Scene, SceneSource], output: Any = 
 
     A plan is made for it and given back. Sequences are faster with a Plan of their own.
     """
-    from .context import default_context
-
     made_scene = None if isinstance(scene, Scene) else Scene(scene, context=default_context(backend))
     shape = as_image_array(color, "color", (1, 2, 3, 4)).shape
     wanted = Plan._items(layers, "layers")

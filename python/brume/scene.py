@@ -60,7 +60,7 @@ def numbers(value: Any, name: str, count: int) -> Sequence[float]:
         array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):
         array = np.empty(0)
-    if array.shape == () and count:
+    if array.shape == ():
         array = np.repeat(array, count)
     if array.shape != (count,):
         raise ArgumentError(f"{name}: {value!r}; expected a number or {count} of them")

@@ -303,7 +303,7 @@ class Frames(AddonTest):
             column = self.column_of(scene, lamp)
             glow = after[:18, :, 1].sum(axis=0)
             self.assertLess(abs(int(np.argmax(np.convolve(glow, np.ones(5), "same"))) - column), 8)
-        # A folder afterwards: the keyed scene file gives the same bits.
+        # A folder afterwards: the keyed scene file gives the same frames.
         written = {number: self.clear_and_foggy(number)[1] for number in (1, 2)}
         scene.brume.output = "again"
         bpy.ops.brume.fog_frames()
@@ -344,8 +344,7 @@ class Frames(AddonTest):
         both = rgb(clear, "ViewLayer.Combined_lamp") + rgb(clear, "ViewLayer.Combined_spot")
         np.testing.assert_allclose(both, rgb(clear), rtol=1e-3, atol=1e-5)
         self.assertTrue(os.path.exists(self.path("fogged", "still.exr")))
-        found = module("export").snapshot(scene, bpy.context.evaluated_depsgraph_get(), True)
-        self.assertEqual(found["lights"]["spot"]["group"], "ViewLayer.Combined_spot")
+        self.assertEqual(self.snapshot(scene)["lights"]["spot"]["group"], "ViewLayer.Combined_spot")
 
     def test_preview(self):
         scene = self.start()
@@ -411,7 +410,7 @@ class Troubles(AddonTest):
         self.assertEqual(self.render(scene, "still")["ViewLayer.Depth.Z"].shape, (36, 64))
         self.assertIn("frames stay without fog: /nowhere/brume: no such command; the add-on's preferences name it",
                       module("rendering").state.problem)
-        for operator in (bpy.ops.brume.fog_frames, bpy.ops.brume.preview, lambda: bpy.ops.brume.export(filepath=self.path("x"))):
+        for operator in (bpy.ops.brume.fog_frames, bpy.ops.brume.preview):
             with self.assertRaisesRegex(RuntimeError, "no such command"):
                 operator()
         preferences.tool = ""

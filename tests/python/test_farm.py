@@ -110,11 +110,11 @@ def test_frames_that_fail(farm):
     farm.check_frames()
 
 
-def slow_command(farm, tool, first_lines):
+def slow_command(farm, tool, monkeypatch, first_lines):
     """The command, with something before it: one whose frames take a while."""
     (farm.path / "slow").write_text(f"#!/bin/bash\n{first_lines}\nexec {tool} \"$@\"\n")
     (farm.path / "slow").chmod(0o755)
-    os.environ["BRUME"] = str(farm.path / "slow")
+    monkeypatch.setenv("BRUME", str(farm.path / "slow"))
     # Frames that take long enough to be caught at it.
     (farm.path / "fog.json").write_text(json.dumps({**SCENE, "quality": "reference"}))
     for path in farm.path.glob("shot.*.exr"):
@@ -136,8 +136,7 @@ def signal_at_first_frame(farm, number, count):
 
 
 def test_kill_9(farm, tool, monkeypatch):
-    monkeypatch.setenv("BRUME", tool)
-    slow_command(farm, tool, f'[ "$1" = run ] && echo $$ >>{farm.path}/pids')
+    slow_command(farm, tool, monkeypatch, f'[ "$1" = run ] && echo $$ >>{farm.path}/pids')
     thread = signal_at_first_frame(farm, signal.SIGKILL, 1)
     assert farm.submit("--", "--jobs", "1", chunk="10").returncode == 0
     thread.join()
@@ -155,11 +154,10 @@ def test_left_overs_of_killed_runs(farm, tool, monkeypatch):
     old.touch(), new.touch()
     os.utime(old, (time.time() - 7200,) * 2)
     # A process of the same number, as in containers, is not in their way.
-    monkeypatch.setenv("BRUME", tool)
     (farm.path / "same").write_text(f'#!/bin/sh\n[ "$1" = run ] && for n in 0 1 2 3 4 5 6 7 8 9; do touch {out}/.brume-$$-$n.partial; done\n'
                                     f'exec {tool} "$@"\n')
     (farm.path / "same").chmod(0o755)
-    os.environ["BRUME"] = str(farm.path / "same")
+    monkeypatch.setenv("BRUME", str(farm.path / "same"))
     farm.submit()
     assert farm.merged()["totals"]["done"] == 7
     assert not old.exists() and new.exists()
@@ -168,8 +166,7 @@ def test_left_overs_of_killed_runs(farm, tool, monkeypatch):
 
 def test_time_limits(farm, tool, monkeypatch):
     """The shell of a chunk gets the signal; the command ends its frame, and the rest is queued again."""
-    monkeypatch.setenv("BRUME", tool)
-    slow_command(farm, tool, f'[ "$1" = run ] && echo $PPID >>{farm.path}/pids')
+    slow_command(farm, tool, monkeypatch, f'[ "$1" = run ] && echo $PPID >>{farm.path}/pids')
     monkeypatch.delenv("FAKE_AFTER")
     thread = signal_at_first_frame(farm, signal.SIGTERM, 1)
     farm.submit("--", "--jobs", "1", chunk="10")

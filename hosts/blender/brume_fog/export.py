@@ -100,7 +100,7 @@ def _lamp(placed, fog, metres):
     return found
 
 
-def lamps(scene, depsgraph, with_groups):
+def lamps(scene, depsgraph):
     """Lights by the names of their objects."""
     found, metres = {}, scene.unit_settings.scale_length
     for instance in depsgraph.object_instances:
@@ -111,17 +111,17 @@ def lamps(scene, depsgraph, with_groups):
         if not any(made["intensity"]):
             continue
         group = getattr(placed.original, "lightgroup", "")
-        if with_groups and group:
+        if group:
             made["group"] = f"{scene.view_layers[0].name}.Combined_{group}"
         found[placed.name] = made
     return found
 
 
-def snapshot(scene, depsgraph, with_groups=False):
+def snapshot(scene, depsgraph):
     """What a scene file says of the frame that a depsgraph is at; lights by name."""
     found = {"camera": camera(scene, depsgraph), "medium": medium.block(scene.brume)}
     if scene.brume.use_lights:
-        found["lights"] = lamps(scene, depsgraph, with_groups)
+        found["lights"] = lamps(scene, depsgraph)
     return found
 
 

@@ -12,11 +12,11 @@ _FAILURES = (export.ExportError, tool.ToolError, medium.MediumError, OSError)
 
 def shot(scene):
     """The scene file of the scene's frames, keyed. The scene is at its frame again afterwards."""
-    groups, frame, snapshots = tool.knows_groups(), scene.frame_current, {}
+    frame, snapshots = scene.frame_current, {}
     try:
         for number in range(scene.frame_start, scene.frame_end + 1, scene.frame_step):
             scene.frame_set(number)
-            snapshots[number] = export.snapshot(scene, bpy.context.evaluated_depsgraph_get(), groups)
+            snapshots[number] = export.snapshot(scene, bpy.context.evaluated_depsgraph_get())
     finally:
         scene.frame_set(frame)
     return export.scene_file(scene, snapshots)
@@ -154,9 +154,8 @@ class Preview(Reporting, bpy.types.Operator):
         except RuntimeError as error:
             raise export.ExportError(f"nothing was rendered: {error}".strip()) from None
         finally:
-            settings.file_format = before[0]
-            settings.color_depth = before[1]
-        snapshot = export.snapshot(scene, context.evaluated_depsgraph_get(), tool.knows_groups())
+            settings.file_format, settings.color_depth = before
+        snapshot = export.snapshot(scene, context.evaluated_depsgraph_get())
         rendering.fog_frame(scene, snapshot, scene.frame_current, place, foggy)
         image = bpy.data.images.get(self.NAME)
         if image is None:

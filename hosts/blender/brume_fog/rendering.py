@@ -15,7 +15,6 @@ class State:
 
     def __init__(self):
         self.rendering = False
-        self.groups = False
         self.snapshot = None  # (frame, what the scene file says of it)
         self.done = 0
         self.problem = ""
@@ -79,7 +78,7 @@ def on_init(scene, _=None):
         return
     try:
         check_settings(scene)
-        state.groups = tool.knows_groups()
+        tool.path()
     except (export.ExportError, tool.ToolError) as error:
         state.fail(f"frames stay without fog: {error}")
         state.rendering = False
@@ -91,7 +90,7 @@ def on_frame(scene, depsgraph=None):
     if not state.rendering or depsgraph is None:
         return
     try:
-        state.snapshot = (scene.frame_current, export.snapshot(scene, depsgraph, state.groups))
+        state.snapshot = (scene.frame_current, export.snapshot(scene, depsgraph))
     except export.ExportError as error:
         state.snapshot = None
         state.fail(f"frame {scene.frame_current}: {error}")

@@ -1,5 +1,4 @@
 """The `brume` command."""
-import json
 import os
 import queue
 import re
@@ -10,7 +9,7 @@ import threading
 
 import bpy
 
-
+_PROGRESS = re.compile(r"\[(\d+)/(\d+)\] ")
 _SUMMARY = re.compile(r"brume: \d+ done, ")
 
 
@@ -30,15 +29,6 @@ def path():
     if not found:
         raise ToolError("the command brume was not found; the add-on's preferences say where it is")
     return found
-
-
-def knows_groups():
-    """Whether lights of scene files may name a light group."""
-    said = subprocess.run([path(), "schema"], capture_output=True, text=True, check=False)
-    try:
-        return '"group"' in json.dumps(json.loads(said.stdout)["properties"]["lights"])
-    except (ValueError, KeyError):
-        return False
 
 
 def arguments(scene, scene_file, frames, output):
@@ -77,9 +67,9 @@ class Run:
             self._reader.join()
         while not self._lines.empty():
             line = self._lines.get()
-            count, slash, _ = line[1:].partition("]")[0].partition("/")
-            if line.startswith("[") and slash and count.isdigit():
-                self.done, self.total = int(count), int(line[1:].partition("]")[0].partition("/")[2])
+            progress = _PROGRESS.match(line)
+            if progress:
+                self.done, self.total = map(int, progress.groups())
             elif line and not _SUMMARY.match(line):
                 self.messages.append(line[len("brume: "):] if line.startswith("brume: ") else line)
         return status
