@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -107,21 +107,18 @@ private:
     brume_image image_;
 };
 
-// The window of the fogged source; where there is no source, nothing.
+// The window of the fogged source, which is packed; where there is no source, there is nothing.
 void write(const ClipImage &output, const RectI &asked, const std::vector<float> &fogged, const ClipImage &source)
 {
-    const RectI &have = source.bounds(), &bounds = output.bounds();
-    const size_t pixel = size_t(source.channels()) * sizeof(float);
+    const RectI &bounds = output.bounds(), &have = source.bounds();
+    const int channels = source.channels(), common = std::min(channels, output.channels());
     for (int y = std::max(asked.y1, bounds.y1); y < std::min(asked.y2, bounds.y2); ++y)
         for (int x = std::max(asked.x1, bounds.x1); x < std::min(asked.x2, bounds.x2); ++x) {
             const bool inside = x >= have.x1 && x < have.x2 && y >= have.y1 && y < have.y2;
-            if (!inside)
-                std::memset(output.at(x, y), 0, pixel);
-            else
-                std::memcpy(output.at(x, y),
-                            &fogged[(size_t(have.y2 - 1 - y) * size_t(source.width()) + size_t(x - have.x1)) *
-                                    size_t(source.channels())],
-                            pixel);
+            std::fill_n(output.at(x, y), output.channels(), inside ? 1.f : 0.f);
+            if (inside)
+                std::copy_n(fogged.begin() + ((have.y2 - 1 - y) * std::ptrdiff_t(source.width()) + x - have.x1) * channels,
+                            common, output.at(x, y));
         }
 }
 
@@ -133,8 +130,10 @@ void fog_frame(Instance &instance, Properties in)
     if (!instance.filter && !depth_clip.connected())
         throw Refusal("Depth: not connected; expected a clip that holds the distance to what each pixel shows");
     const ClipImage source(source_clip, time), output(Clip(instance.effect, clip::output), time);
-    if (output.channels() != source.channels())
-        throw Refusal(fmt::format("Output: {} channels; Source has {}", output.channels(), source.channels()));
+    for (const ClipImage *image : {&source, &output})
+        if (image->channels() < 3)
+            throw Refusal(
+                fmt::format("{}: components Alpha; expected RGBA or RGB", image == &source ? clip::source : clip::output));
     std::optional<ClipImage> depth_image;
     if (!instance.filter)
         depth_image.emplace(depth_clip, time);
@@ -175,7 +174,10 @@ Status purge_caches(EffectHandle effect)
 
 Status region_of_definition(EffectHandle effect, Properties in, Properties out)
 {
-    out.set(property::region_of_definition, Clip(effect, clip::source).region(in.number(property::time, 0)));
+    const Clip source(effect, clip::source);
+    if (!source.connected())
+        return reply_default;
+    out.set(property::region_of_definition, source.region(in.number(property::time, 0)));
     return ok;
 }
 
@@ -192,7 +194,7 @@ Status regions_of_interest(EffectHandle effect, Properties in, Properties out)
 Status clip_preferences(EffectHandle effect, Properties out)
 {
     // Scene files may have keys.
-    out.set(property::frame_varying, read_settings(effect, 0).scene_file.empty() ? 0 : 1);
+    out.set(property::frame_varying, scene_file(effect, 0).empty() ? 0 : 1);
     return ok;
 }
 
@@ -212,6 +214,7 @@ try {
     instance.prepare(read_settings(effect, time), frame_of(effect, in, bounds, aspect));
     if (!instance.fog->does_nothing())
         return reply_default;
+    withdraw_error(effect);
     out.set(property::name, clip::source);
     out.set(property::time, time);
     return ok;

@@ -97,7 +97,7 @@ const Choice choices[] = {
      {"In fog", "Without fog", "At a distance"}},
 };
 
-constexpr const char *scene_file = "sceneFile";
+constexpr const char *scene_file_name = "sceneFile";
 
 Properties define(ParameterSet parameters, const char *type, const char *name, const char *label)
 {
@@ -107,6 +107,14 @@ Properties define(ParameterSet parameters, const char *type, const char *name, c
     const Properties properties = set;
     properties.set(property::label, label);
     return properties;
+}
+
+ParameterSet parameters_of(EffectHandle effect)
+{
+    ParameterSet parameters = nullptr;
+    if (suites.effects->get_parameter_set(effect, &parameters) != ok)
+        throw Refusal("The host has lost the parameters");
+    return parameters;
 }
 
 ParameterHandle handle(ParameterSet parameters, const char *name)
@@ -171,18 +179,23 @@ void define_settings(ParameterSet parameters, bool filter)
             choice.set(property::option, option, count++);
         choice.set(property::initial, filter && one.field == &Settings::depth_channel ? 3 : one.initial);
     }
-    const Properties file = define(parameters, type::string, scene_file, "Scene file");
+    const Properties file = define(parameters, type::string, scene_file_name, "Scene file");
     file.set(property::hint, "Replaces the fog above, and the camera where it has one");
     file.set(property::parent, fog);
     file.set(property::string_mode, property::file_path);
     file.set(property::file_exists, 1);
 }
 
+std::string scene_file(EffectHandle effect, Time time)
+{
+    char *file = nullptr;
+    read(parameters_of(effect), scene_file_name, time, &file);
+    return file ? file : "";
+}
+
 Settings read_settings(EffectHandle effect, Time time)
 {
-    ParameterSet parameters = nullptr;
-    if (suites.effects->get_parameter_set(effect, &parameters) != ok)
-        throw Refusal("The host has lost the parameters");
+    const ParameterSet parameters = parameters_of(effect);
     Settings settings{};
     for (const Number &one : numbers) {
         read(parameters, one.name, time, &(settings.*one.field));
@@ -198,12 +211,9 @@ Settings read_settings(EffectHandle effect, Time time)
         read(parameters, one.name, time, &(settings.*one.field));
         check(one.label, settings.*one.field, 0, double(one.options.size() - 1));
     }
-    char *file = nullptr;
-    read(parameters, scene_file, time, &file);
-    if (file && *file) {
-        settings.scene_file = file;
+    settings.scene_file = scene_file(effect, time);
+    if (!settings.scene_file.empty())
         settings.scene_text = text_of(settings.scene_file);
-    }
     return settings;
 }
 

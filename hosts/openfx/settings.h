@@ -21,6 +21,9 @@ struct Settings {
 // In a filter depth comes with the source, in its alpha.
 void define_settings(ofx::ParameterSet parameters, bool filter);
 
+// "" where there is none.
+std::string scene_file(ofx::EffectHandle effect, ofx::Time time);
+
 // Throws Refusal, which names the parameter and its value.
 Settings read_settings(ofx::EffectHandle effect, ofx::Time time);
 

@@ -47,6 +47,33 @@ TEST_F(OpenFXErrors, DepthIsNotConnected)
     scene::expect_fogged(output, source, depth, 0);
 }
 
+// What hosts ask of a node before it is whole must not fail: some give it up then.
+TEST_F(OpenFXErrors, QuestionsBeforeItIsWhole)
+{
+    const Instance fresh(bundle, ofx::context::general);
+    host::Set in, out;
+    in.put<double>(ofx::property::time, {0});
+    EXPECT_EQ(bundle.act(ofx::action::region_of_definition, &fresh.effect, &in, &out), ofx::reply_default);
+    EXPECT_EQ(bundle.act(ofx::action::regions_of_interest, &fresh.effect, &in, &out), ofx::ok);
+    EXPECT_EQ(bundle.act(ofx::action::clip_preferences, &fresh.effect, nullptr, &out), ofx::ok);
+    EXPECT_EQ(out.get<int>(ofx::property::frame_varying), 0);
+    EXPECT_EQ(fresh.identity(), "");
+    fresh.effect.parameters.at("sceneFile").text = "/nowhere.json";
+    EXPECT_EQ(bundle.act(ofx::action::clip_preferences, &fresh.effect, nullptr, &out), ofx::ok);
+    EXPECT_EQ(out.get<int>(ofx::property::frame_varying), 1);
+    EXPECT_EQ(fresh.effect.error, "");
+}
+
+TEST_F(OpenFXErrors, IdentityWithdrawsAnError)
+{
+    instance.set("visibility", {0});
+    expect_error("Visibility");
+    instance.set("visibility", {100});
+    instance.set("scattering", {0, 0, 0});
+    EXPECT_EQ(instance.identity(), "Source");
+    EXPECT_EQ(instance.effect.error, "");
+}
+
 TEST_F(OpenFXErrors, NoImage)
 {
     instance.effect.clips.at("Depth").picture = nullptr;
@@ -85,9 +112,9 @@ TEST_F(OpenFXErrors, PixelsOfOtherTypes)
     source.depth = ofx::pixels::byte;
     expect_error("Source: pixels of OfxBitDepthByte; expected OfxBitDepthFloat");
     source.depth = ofx::pixels::floating;
-    Picture rgb(whole, 3);
-    instance.connect("Output", rgb);
-    expect_error("Output: 3 channels; Source has 4");
+    Picture alpha(whole, 1);
+    instance.connect("Output", alpha);
+    expect_error("Output: components Alpha; expected RGBA or RGB");
 }
 
 TEST_F(OpenFXErrors, SceneFiles)

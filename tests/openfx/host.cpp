@@ -2,8 +2,7 @@
 
 #include <dlfcn.h>
 
-#include <cmath>
-#include <cstring>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace host {
@@ -11,6 +10,13 @@ namespace host {
 const void *fetch(const char *name, int version, const Options &options);
 
 namespace {
+
+// What was built, or installed.
+std::string binary()
+{
+    const char *path = std::getenv("BRUME_TEST_OFX_PATH");
+    return std::string(path ? path : OPENFX_PATH) + "/Brume.ofx.bundle/Contents/Linux-x86-64/Brume.ofx";
+}
 
 thread_local const Options *fetching = nullptr;
 
@@ -62,7 +68,7 @@ Set *Picture::hand_out()
 Bundle::Bundle(const Options &options)
     : options_(options), properties_(std::make_unique<Set>()), host_(std::make_unique<ofx::Host>())
 {
-    library_ = dlopen(OPENFX_BUNDLE "/Contents/Linux-x86-64/Brume.ofx", RTLD_LAZY | RTLD_LOCAL);
+    library_ = dlopen(binary().c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!library_)
         throw std::runtime_error(dlerror());
     const auto count = reinterpret_cast<int (*)()>(dlsym(library_, "OfxGetNumberOfPlugins"));
@@ -81,6 +87,14 @@ Bundle::~Bundle()
 {
     act(ofx::action::unload);
     dlclose(library_);
+}
+
+bool Bundle::is_mapped()
+{
+    void *library = dlopen(binary().c_str(), RTLD_LAZY | RTLD_NOLOAD);
+    if (library)
+        dlclose(library);
+    return library != nullptr;
 }
 
 ofx::Status Bundle::act(const char *action, const void *handle, Set *in, Set *out) const

@@ -87,6 +87,7 @@ class Bundle {
 public:
     explicit Bundle(const Options &options = {});
     ~Bundle();
+    static bool is_mapped();
     ofx::Status act(const char *action, const void *handle = nullptr, Set *in = nullptr, Set *out = nullptr) const;
     // Described, and described in the context.
     Effect describe(const char *context) const;

@@ -49,6 +49,24 @@ TEST_F(OpenFXRender, ComponentsOfSourceAndDepth)
             }
 }
 
+TEST_F(OpenFXRender, OutputMayHaveOtherComponents)
+{
+    for (int of_source : {4, 3}) {
+        Picture source(whole, of_source), depth(whole, 1), output(whole, 7 - of_source), same(whole, of_source);
+        scene::paint(source);
+        scene::paint_depth(depth);
+        Instance instance(bundle, ofx::context::general);
+        render(instance, source, &depth, same);
+        render(instance, source, &depth, output);
+        for (int y = 0; y < 48; ++y)
+            for (int x = 0; x < 64; ++x) {
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_EQ(output.at(x, y, c), same.at(x, y, c)) << x << ", " << y;
+                ASSERT_EQ(output.at(x, y, output.channels - 1), of_source == 3 ? 1 : same.at(x, y, 2)) << "RGB is opaque";
+            }
+    }
+}
+
 TEST_F(OpenFXRender, FilterFindsDepthInAlpha)
 {
     Picture source(whole, 4), output(whole, 4);
