@@ -137,6 +137,13 @@ void Fog::prepare(const Settings &settings, const Frame &frame)
     frame_ = frame;
 }
 
+bool Fog::does_nothing(const Settings &settings, const Frame &frame)
+{
+    if (!plan_ || settings != settings_)
+        prepare(settings, frame);
+    return does_nothing();
+}
+
 bool Fog::does_nothing() const
 {
     brume_plan_info info = BRUME_PLAN_INFO_INIT;

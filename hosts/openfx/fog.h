@@ -36,11 +36,14 @@ public:
 
     // Plans, unless the last plan is for these.
     void prepare(const Settings &settings, const Frame &frame);
-    bool does_nothing() const;
+    // Of the last plan for these settings, whatever its frames: hosts that round a region otherwise than its image cause no
+    // new plan.
+    bool does_nothing(const Settings &settings, const Frame &frame);
     void run(const brume_image &color, const brume_image &depth, const brume_image &output, ofx::Time time);
 
 private:
     void check(brume_status status) const;
+    bool does_nothing() const;
     Owned<brume_scene> scene_of_file(const Settings &settings, const Frame &frame) const;
     Owned<brume_scene> scene_of_parameters(const Settings &settings, const Frame &frame) const;
 

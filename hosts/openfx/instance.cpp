@@ -26,13 +26,13 @@ struct Instance {
     std::mutex mutex;  // a host may ask on its main thread while it renders on another
     std::optional<Fog> fog;
 
-    void prepare(const Settings &settings, const Frame &frame)
+    Fog &get_fog()
     {
         if (!fog)
             fog.emplace(
                 [](void *user, double) { return int32_t(suites.effects->abort(static_cast<EffectHandle>(user)) != 0); },
                 effect);
-        fog->prepare(settings, frame);
+        return *fog;
     }
 };
 
@@ -139,11 +139,12 @@ void fog_frame(Instance &instance, Properties in)
         depth_image.emplace(depth_clip, time);
     const Depth depth(depth_image ? *depth_image : source, settings.depth_channel, depth_image ? clip::depth : clip::source,
                       source.bounds());
-    instance.prepare(settings, frame_of(instance.effect, in, source.bounds(), source.pixel_aspect()));
+    Fog &fog = instance.get_fog();
+    fog.prepare(settings, frame_of(instance.effect, in, source.bounds(), source.pixel_aspect()));
 
     std::vector<float> fogged(size_t(source.width()) * size_t(source.height()) * size_t(source.channels()));
     const brume_image to = packed(fogged, source.bounds(), source.channels());
-    instance.fog->run(source.all_channels(), depth.image(), to, time);
+    fog.run(source.all_channels(), depth.image(), to, time);
     write(output, in.rectangle(property::render_window), fogged, source);
 }
 
@@ -211,8 +212,7 @@ try {
     const double aspect = source.properties().number(property::pixel_aspect, 1);
     const RectI bounds{int(std::floor(region.x1 * scale.x / aspect)), int(std::floor(region.y1 * scale.y)),
                        int(std::ceil(region.x2 * scale.x / aspect)), int(std::ceil(region.y2 * scale.y))};
-    instance.prepare(read_settings(effect, time), frame_of(effect, in, bounds, aspect));
-    if (!instance.fog->does_nothing())
+    if (!instance.get_fog().does_nothing(read_settings(effect, time), frame_of(effect, in, bounds, aspect)))
         return reply_default;
     withdraw_error(effect);
     out.set(property::name, clip::source);

@@ -201,9 +201,9 @@ constexpr const char *optional = "OfxImageClipPropOptional", *connected = "OfxIm
 // of parameters
 constexpr const char *initial = "OfxParamPropDefault", *least = "OfxParamPropMin", *most = "OfxParamPropMax",
                      *display_least = "OfxParamPropDisplayMin", *display_most = "OfxParamPropDisplayMax",
-                     *hint = "OfxParamPropHint", *option = "OfxParamPropChoiceOption", *parent = "OfxParamPropParent",
-                     *string_mode = "OfxParamPropStringMode", *file_path = "OfxParamStringIsFilePath",
-                     *file_exists = "OfxParamPropStringFilePathExists";
+                     *digits = "OfxParamPropDigits", *hint = "OfxParamPropHint", *option = "OfxParamPropChoiceOption",
+                     *parent = "OfxParamPropParent", *string_mode = "OfxParamPropStringMode",
+                     *file_path = "OfxParamStringIsFilePath", *file_exists = "OfxParamPropStringFilePathExists";
 }  // namespace property
 
 }  // namespace ofx

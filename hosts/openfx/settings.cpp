@@ -165,6 +165,7 @@ void define_settings(ParameterSet parameters, bool filter)
         number.set(property::hint, one.hint);
         number.set(property::parent, one.group);
         number.set(property::initial, one.initial);
+        number.set(property::digits, 4);
         number.set(property::least, one.least);
         number.set(property::most, one.most);
         number.set(property::display_least, std::max(one.least, -one.display_most));

@@ -233,8 +233,10 @@ TEST_F(OpenFXRender, AnimationIsFollowed)
     scene::paint_depth(depth);
     Instance instance(bundle, ofx::context::general);
     instance.effect.parameters.at("visibility").animated = [](double time) { return 50 + 10 * time; };
-    for (double time : {1., 2., 7.}) {
+    instance.effect.parameters.at("heightFalloff").animated = [](double time) { return time < 5 ? 0 : .02 * time; };
+    for (double time : {1., 2., 7., 8.}) {
         World world;
+        world.term.falloff = time < 5 ? 0 : .02 * time;
         for (double &sigma : world.medium.scattering)
             sigma = 3.912 / (50 + 10 * time);
         render(instance, source, &depth, output, time);
@@ -273,6 +275,12 @@ TEST_F(OpenFXRender, SceneFileReplacesTheFog)
     std::ofstream(file.path) << world.text;
     render(instance, source, &depth, output, 9);
     scene::expect_fogged(output, source, depth, 0, world);
+    // Each effect is in the bundle.
+    world.text =
+        R"({"brume": 1, "medium": {"visibility": 30}, "lights": [{"type": "point", "position": [0, 1, -9], "intensity": [9, 5, 2]}]})";
+    std::ofstream(file.path) << world.text;
+    render(instance, source, &depth, output, 9);
+    scene::expect_fogged(output, source, depth, 0, world);
 }
 
 TEST_F(OpenFXRender, NothingToDoIsIdentity)
@@ -297,7 +305,7 @@ TEST_F(OpenFXRender, NothingToDoIsIdentity)
 
 TEST_F(OpenFXRender, AbortIsAskedAndHeard)
 {
-    const ofx::RectI large{0, 0, 1280, 720};
+    const ofx::RectI large{0, 0, 1920, 1080};
     Picture source(large, 4), depth(large, 1), output(large, 4);
     scene::paint(source);
     scene::paint_depth(depth);
