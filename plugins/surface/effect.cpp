@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "tables.h"
 #include "state.h"
 
 namespace surface {
@@ -36,6 +37,7 @@ public:
     {
         state_->width = request.width;
         state_->height = request.height;
+        state_->method = read_method(request.parameters);
     }
 
     brume_status plan(std::unique_ptr<State> &out);
@@ -53,6 +55,7 @@ private:
     const char *why_not() const;
     brume_status plan_normals(double pixels);
     brume_status explain_material();
+    brume_status plan_method();
     brume_status plan_groups(double pixels, double of_light);
 
     const brume_services &services_;
@@ -61,6 +64,16 @@ private:
     const brume_plugin_scene &scene_;
     std::unique_ptr<State> state_;
 };
+
+const char *about_method(Method method)
+{
+    if (method == Method::sun)
+        return "what lights give surfaces through the medium, method sun: scattered once (Sun et al. 2005)";
+    if (method == Method::psf)
+        return "what lights give surfaces through the medium, method psf: scattered once, in spherical harmonics (Zhou et "
+               "al. 2007)";
+    return "what lights give surfaces through the medium, method calibrated: scattered any number of times";
+}
 
 // NULL: it runs.
 const char *Planner::why_not() const
@@ -74,7 +87,9 @@ const char *Planner::why_not() const
         return "the medium's density is zero everywhere";
     if (!any(m.scattering) && !any(m.absorption))
         return "the medium neither scatters nor absorbs";
-    if (scene_.light_count == 0)
+    if (scene_.light_count == 0 && state_->method == Method::psf && scene_.environment_count == 0)
+        return "no lights and no environment";
+    if (scene_.light_count == 0 && state_->method != Method::psf)
         return "no lights";
     return nullptr;
 }
@@ -100,6 +115,31 @@ brume_status Planner::explain_material()
     if (given[layer_specular] && given[layer_roughness])
         return BRUME_OK;
     return entry(false, "highlights", "no layers specular and roughness: highlights count as diffuse", 0, 0);
+}
+
+brume_status Planner::plan_method()
+{
+    if (state_->method == Method::calibrated)
+        return BRUME_OK;
+    const bool psf = state_->method == Method::psf;
+    const auto &m = *scene_.medium;
+    if (m.phase[0] != 0 || m.phase[3] != 0)
+        if (brume_status s = entry(false, "phase",
+                                   std::string("method ") + (psf ? "psf" : "sun") +
+                                       ": scattered alike in all directions, whatever the medium's phase function",
+                                   0, 0))
+            return s;
+    if (psf && scene_.environment_count > 0 &&
+        (m.term_count > 0 || (m.constant > 0 && scene_.camera->sky != int32_t(BRUME_SKY_CLAMP))))
+        if (brume_status s =
+                entry(false, "environment",
+                      "constant and exponential density has no end without a sky's distance: the environment's part "
+                      "stays as it is",
+                      0, 0))
+            return s;
+    const std::vector<float> &table = psf ? psf_table() : lobe_table();
+    const int32_t channels = psf ? 4 : 1;
+    return services_.upload(host_, upload_table, channels, table.data(), table.size() / size_t(channels), &state_->table);
 }
 
 brume_status Planner::plan_groups(double pixels, double of_light)
@@ -130,6 +170,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     if (brume_status s = explain_material())
         return s;
+    if (brume_status s = plan_method())
+        return s;
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
     if (!followed)
@@ -139,7 +181,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
                           std::to_string(most_gaussians) + " are followed",
                       0, 0))
             return s;
-    if (brume_status s = entry(true, "compose", "what lights give surfaces through the medium", pixels * (16 + 4 + 16 + 16),
+    if (brume_status s = entry(true, "compose", about_method(state_->method), pixels * (16 + 4 + 16 + 16),
                                pixels * (40 + (state_->rest[0] ? 0 : lights * of_light))))
         return s;
     if (brume_status s = create_passes(services_, host_, *state_))
@@ -177,6 +219,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.thread_safety = BRUME_THREADS_SAFE;
         // Pictures whose surfaces emit would be taken for lit ones, were it not for these layers.
         e.wanted = BRUME_WANTED_WITH_LAYERS;
+        e.parameters = parameter_table().data();
+        e.parameter_count = uint32_t(parameter_table().size());
         e.layers = layer_table;
         e.layer_count = layer_count;
         e.uses = used;

@@ -222,6 +222,7 @@ struct Lit {
     f64::Medium medium{};
     f64::Surface surface{true, f64::vec3(0, 0, -5), f64::vec3(0, 0, 1)};
     f64::Light lamp{};
+    f64::SurfaceSettings settings{};
     f64::Material material{true, f64::vec3(0.6, 0.3, 0.1), f64::vec3(0), false, 1};
 
     Lit(double scattering, double g, const f64::vec3 &at)
@@ -234,7 +235,10 @@ struct Lit {
         lamp.intensity = f64::vec3(10);
     }
     f64::vec3 diffuse() const { return material.albedo / f64::pi * f64::clear_irradiance(surface, lamp); }
-    f64::vec3 becomes(const f64::vec3 &own) const { return f64::lit_by_lamp(medium, surface, lamp, material, {}, 0, own); }
+    f64::vec3 becomes(const f64::vec3 &own) const
+    {
+        return f64::lit_by_lamp(medium, settings, surface, lamp, material, {}, {}, own);
+    }
 };
 
 }  // namespace
