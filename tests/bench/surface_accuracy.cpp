@@ -1,11 +1,12 @@
 // surface_accuracy [--quick]: what the methods of effect surface say that surfaces reflect of light scattered once, against
-// quadrature (surface_reference.h), over random media, lamps and views; and which optical depth serves where a cloud is on
-// one side. Seeded; the same on every run.
+// quadrature (surface_reference.h), over random media, lamps and views; of light scattered any number of times, against
+// paths; and which optical depth serves where a cloud is on one side. Seeded; the same on every run.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <random>
 
+#include "surface_arrival.h"
 #include "surface_reference.h"
 #include "surface_tables.h"
 
@@ -127,6 +128,56 @@ void once(int count)
     }
 }
 
+// Once by quadrature, with the medium's own phase function, and more often by paths.
+void often(int photons)
+{
+    printf("\nLight scattered any number of times that a lobe of Phong sees in an endless medium, T .1 to 8, its axis 0 to "
+           "135 degrees "
+           "from the lamp:\nmean of the methods over the paths', and rms error relative to it.\n"
+           "    g sigma_a/sigma_t    n  once only    calibrated           sun           psf\n");
+    const std::vector<double> depths{0.1, 0.3, 1, 3, 8};
+    for (double g : {0.0, 0.7, 0.9})
+        for (double absorption : {0.0, 0.1}) {
+            const auto arrivals = lamp_tracer::trace_arrivals(g, absorption, depths, photons, 1);
+            for (double exponent : {1.0, 5.0, 25.0, 100.0}) {
+                double mean[3] = {}, square[3] = {}, single = 0;
+                int count = 0;
+                for (const auto &arrival : arrivals)
+                    for (double theta : {0.0, pi / 6, pi / 3, pi / 2, 3 * pi / 4}) {
+                        Sample s;
+                        s.surface = Surface{true, vec3(0, 0, -2), vec3(0, 0, 1)};
+                        const vec3 to_lamp(std::sin(theta), 0, std::cos(theta));
+                        s.lamp = Light{s.surface.point + to_lamp, 0, vec3(0), 0, vec3(1), 0, light_point, 0};
+                        s.scene.medium.constant = 1;
+                        s.scene.medium.scattering = vec3((1 - absorption) * arrival.depth);
+                        s.scene.medium.absorption = vec3(absorption * arrival.depth);
+                        s.scene.medium.asymmetry = g;
+                        s.scene.medium.phase = vec4(g, 0, 0, 0);
+                        s.material = Material{true, vec3(0), vec3(1), false, exponent};
+                        s.reflection = phong(vec3(0, 0, 1), exponent);
+                        Light seen = s.lamp;
+                        seen.position = to_lamp;
+                        s.scene.lights = {&seen, 1};
+                        const double once = reflected_once(s.scene, s.reflection, 1, 1e-4),
+                                     want = once + lamp_tracer::lobe_of_arrival(arrival, exponent, theta);
+                        single += once / want;
+                        const int methods[] = {method_calibrated, method_sun, method_psf};
+                        for (size_t m = 0; m < 3; ++m) {
+                            const double ratio = brought(s, methods[m], 0, 0) / want;
+                            mean[m] += ratio;
+                            square[m] += (ratio - 1) * (ratio - 1);
+                        }
+                        ++count;
+                    }
+                printf("%5.2f %15.2f %4.0f %10.2f", g, absorption, exponent, single / count);
+                for (size_t m = 0; m < 3; ++m)
+                    printf("  %6.2f %5.2f", mean[m] / count, std::sqrt(square[m] / count));
+                printf("\n");
+                fflush(stdout);
+            }
+        }
+}
+
 void published_coefficients()
 {
     printf("\nA Lambert surface that faces the lamp, light scattered once: relative error\n    T      sun      psf  psf at "
@@ -209,6 +260,7 @@ int main(int argc, char **argv)
         return 2;
     }
     once(quick ? 12 : 600);
+    often(quick ? 100 : 20000);
     published_coefficients();
     clouds(quick ? 20000 : 4000000);
 }

@@ -388,6 +388,12 @@ TEST(Surface, LampsThatLightWhatIsSeen)
             material[name] = read_exr(clear, {std::string(name) + ".R", std::string(name) + ".G", std::string(name) + ".B"});
         material["roughness"] = read_exr(clear, {"roughness.Y"});
         const double all = error("light groups, normals, materials", relit(cpu(), scene, color, depth, material, groups));
+        for (const char *method : {"sun", "psf"}) {
+            scene["effects"]["surface"]["method"] = method;
+            const std::string what = std::string("the same by method ") + method;
+            EXPECT_GT(error(what.c_str(), relit(cpu(), scene, color, depth, material, groups)), all)
+                << medium << ": scattered once is not enough";
+        }
         scene.erase("effects");
         const double by_default = error("the same, no effects named", relit(cpu(), scene, color, depth, material, groups));
         const double ungrouped = error("no effects named, no layers", run(cpu(), scene.dump(), color, depth).output);
