@@ -65,14 +65,19 @@ private:
     std::unique_ptr<State> state_;
 };
 
-const char *about_method(Method method)
+std::string about(Method method)
 {
-    if (method == Method::sun)
-        return "what lights give surfaces through the medium, method sun: scattered once (Sun et al. 2005)";
-    if (method == Method::psf)
-        return "what lights give surfaces through the medium, method psf: scattered once, in spherical harmonics (Zhou et "
-               "al. 2007)";
-    return "what lights give surfaces through the medium, method calibrated: scattered any number of times";
+    const char *const methods[] = {"calibrated: scattered any number of times", "sun: scattered once (Sun et al. 2005)",
+                                   "psf: scattered once, in spherical harmonics (Zhou et al. 2007)",
+                                   "reference: scattered once, by quadrature"};
+    return std::string("what lights give surfaces through the medium, method ") + methods[size_t(method)];
+}
+
+// Of one lamp at one pixel.
+double operations_of(Method method, double followed)
+{
+    const double on_top[] = {0, 1000, 400, 1e6};
+    return 200 + on_top[size_t(method)] + followed * (method == Method::reference ? 1e6 : 1);
 }
 
 // NULL: it runs.
@@ -119,7 +124,11 @@ brume_status Planner::explain_material()
 
 brume_status Planner::plan_method()
 {
-    if (state_->method == Method::calibrated)
+    if (state_->method == Method::reference && request_.backend != BRUME_BACKEND_CPU)
+        return services_.fail(
+            host_, BRUME_ERROR_UNSUPPORTED,
+            "method: reference on OpenGL; expected calibrated, sun or psf, or the CPU, on which alone references run");
+    if (state_->method != Method::sun && state_->method != Method::psf)
         return BRUME_OK;
     const bool psf = state_->method == Method::psf;
     const auto &m = *scene_.medium;
@@ -165,7 +174,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     const double pixels = double(state_->width) * state_->height, lights = scene_.light_count;
     const bool followed = scene_.gaussian_count <= most_gaussians;
-    const double of_light = 200 + 30.0 * scene_.medium->term_count + (followed ? 20.0 * scene_.gaussian_count : 0);
+    const double of_light =
+        operations_of(state_->method, 30.0 * scene_.medium->term_count + (followed ? 20.0 * scene_.gaussian_count : 0));
     if (brume_status s = plan_normals(pixels))
         return s;
     if (brume_status s = explain_material())
@@ -181,7 +191,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
                           std::to_string(most_gaussians) + " are followed",
                       0, 0))
             return s;
-    if (brume_status s = entry(true, "compose", about_method(state_->method), pixels * (16 + 4 + 16 + 16),
+    if (brume_status s = entry(true, "compose", about(state_->method), pixels * (16 + 4 + 16 + 16),
                                pixels * (40 + (state_->rest[0] ? 0 : lights * of_light))))
         return s;
     if (brume_status s = create_passes(services_, host_, *state_))

@@ -188,13 +188,16 @@ brume_status Frame::compose()
 
 brume_status create_passes(const brume_services &services, brume_host host, State &state)
 {
+    const bool reference = state.method == Method::reference;
     if (state.normals)
         if (brume_status s = create_pass(services, host, "normals", normals_slots, normals_rows, state.normals_pass))
             return s;
     if (state.rest[0])
-        if (brume_status s = create_pass(services, host, "group", group_slots, group_rows, state.group_pass))
+        if (brume_status s = create_pass(services, host, "group", group_slots, reference ? group_reference_rows : group_rows,
+                                         state.group_pass))
             return s;
-    return create_pass(services, host, "compose", compose_slots, compose_rows, state.compose_pass);
+    return create_pass(services, host, "compose", compose_slots, reference ? compose_reference_rows : compose_rows,
+                       state.compose_pass);
 }
 
 brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)

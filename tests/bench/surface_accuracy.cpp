@@ -1,13 +1,13 @@
 // surface_accuracy [--quick]: what the methods of effect surface say that surfaces reflect of light scattered once, against
-// quadrature (surface_reference.h), over random media, lamps and views; of light scattered any number of times, against
-// paths; and which optical depth serves where a cloud is on one side. Seeded; the same on every run.
+// quadrature (plugins/surface/hemisphere.h), over random media, lamps and views; of light scattered any number of times,
+// against paths; and which optical depth serves where a cloud is on one side. Seeded; the same on every run.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <random>
 
+#include "surface/hemisphere.h"
 #include "surface_arrival.h"
-#include "surface_reference.h"
 #include "surface_tables.h"
 
 namespace {
@@ -111,7 +111,7 @@ void once(int count)
             Light seen = s.lamp;
             seen.position = 3.0 * to_lamp;
             s.scene.lights = {&seen, 1};
-            const double want = reflected_once(s.scene, s.reflection), kept = std::exp(-depth);
+            const double want = reflected_once(s.scene, s.reflection).x, kept = std::exp(-depth);
             const double own = cosine > 0 ? s.reflection.of(to_lamp) / 9 : 0;
             const double got[] = {brought(s, method_sun, own, kept), brought(s, method_psf, own, kept),
                                   brought_by_one(s, depth)};
@@ -158,7 +158,7 @@ void often(int photons)
                         Light seen = s.lamp;
                         seen.position = to_lamp;
                         s.scene.lights = {&seen, 1};
-                        const double once = reflected_once(s.scene, s.reflection, 1, 1e-4),
+                        const double once = reflected_once(s.scene, s.reflection, 1, 1e-4).x,
                                      want = once + lamp_tracer::lobe_of_arrival(arrival, exponent, theta);
                         single += once / want;
                         const int methods[] = {method_calibrated, method_sun, method_psf};
@@ -193,7 +193,7 @@ void published_coefficients()
         Light seen = s.lamp;
         seen.position = vec3(0, 0, 3);
         s.scene.lights = {&seen, 1};
-        const double want = reflected_once(s.scene, s.reflection);
+        const double want = reflected_once(s.scene, s.reflection).x;
         printf("%5.2f %8.4f %8.4f %9.4f\n", depth, brought(s, method_sun, 0, 0) / want - 1,
                brought(s, method_psf, 0, 0) / want - 1, brought_by_one(s, depth) / want - 1);
     }
@@ -227,7 +227,7 @@ void clouds(int count)
         };
         const double path = depth_along(vec3(0), vec3(0, 0, 1), 6),
                      mean = 0.8 * mean_depth_of_gaussian(surface_tables::degrees(), glm::length(place.at));
-        const double lit = std::exp(-path) + pi * reflected_once(scene, lambert(vec3(0, 0, 1)), 1, 1e-4);
+        const double lit = std::exp(-path) + pi * reflected_once(scene, lambert(vec3(0, 0, 1)), 1, 1e-4).x;
         auto lamp_by = [](double depth) { return std::exp(-depth) + pi * psf_lobe(surface_tables::degrees(), depth, 1, 1); };
         std::mt19937 random(3);
         std::uniform_real_distribution<double> u(0, 1);

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "../bench/surface_reference.h"
 #include "../bench/surface_tables.h"
 #include "lit_scene.h"
 #include "maths.hpp"
 #include "relit.h"
+#include "surface/hemisphere.h"
 #include "tables.h"
 
 using namespace fog;
@@ -116,12 +116,13 @@ TEST(SurfaceReference, IsItsClosedFormWhereThereIsOne)
             auto closed = [&](double exponent) {
                 return surface::lobe_of_scattered(depth, exponent, theta) * depth * std::exp(-depth);
             };
-            EXPECT_NEAR(reflected_once(scene, lambert(up)) / closed(1), 1, 1e-4) << depth << ", " << theta;
+            EXPECT_NEAR(reflected_once(scene, lambert(up)).x / closed(1), 1, 1e-4) << depth << ", " << theta;
             for (double exponent : {5.0, 100.0})
-                EXPECT_NEAR(reflected_once(scene, phong(up, exponent)) / closed(exponent), 1, 1e-4)
+                EXPECT_NEAR(reflected_once(scene, phong(up, exponent)).x / closed(exponent), 1, 1e-4)
                     << depth << ", " << theta;
             const Reflection rough = ggx(up, glm::normalize(vec3(0.3, -0.6, 0.8)), 0.3);
-            EXPECT_NEAR(reflected_once(scene, rough) / reflected_once(scene, rough, 4), 1, 2e-4) << depth << ", " << theta;
+            EXPECT_NEAR(reflected_once(scene, rough).x / reflected_once(scene, rough, 4).x, 1, 2e-4)
+                << depth << ", " << theta;
         }
 }
 
@@ -249,8 +250,9 @@ TEST_P(SurfaceMethodOn, FiniteAtTheExtremes)
             const Picture got = relit(context(), s, wall.color, wall.depth, wall.material);
             for (float v : got.data)
                 ASSERT_TRUE(std::isfinite(v) && v >= 0) << extinction << ", g " << g << ", lamp " << at[0] << " " << at[2];
-            if (extinction == 1e-12 && std::abs(at[2] + 5) > 0.1)
+            if (extinction == 1e-12 && std::abs(at[2] + 5) > 0.1) {
                 EXPECT_LT(compare(got, wall.color, 0.05).error, 1e-5);
+            }
         }
 }
 
@@ -288,7 +290,70 @@ TEST(SurfaceMethod, OthersAreRefusedByName)
     }
 }
 
+// The reference is the only one that knows phase functions; where there is none, sun's tables are the same light.
+TEST(SurfaceMethod, ReferenceIsWhatSunHasTabulated)
+{
+    Wall wall;
+    wall.material["specular"] = Picture(3, 3, 3, 0.3f);
+    wall.material["roughness"] = Picture(3, 3, 1, 0.5f);
+    for (const Vector &at : {Vector{0, 0, -2}, Vector{3, 0, -4}, Vector{0, 2, -8}})
+        for (bool known : {true, false}) {
+            Json s = lit_scene({{"scattering", {0.02, 0.1, 0.5}}, {"absorption", {0.01, 0, 0.2}}},
+                               Json::array({point_light(at, 40)}));
+            auto by = [&](const char *method, double g, const std::vector<Picture> &groups) {
+                s["medium"]["g"] = g;
+                s["effects"] = {{"surface", {{"method", method}}}};
+                return relit(cpu(), s, wall.color, wall.depth, known ? wall.material : std::map<std::string, Picture>{},
+                             groups);
+            };
+            const Picture want = by("sun", 0, {});
+            const Worst worst = compare(by("reference", 0, {}), want, 0.01),
+                        grouped = compare(by("reference", 0, {wall.color}), by("sun", 0, {wall.color}), 0.01);
+            EXPECT_LT(worst.error, 1e-3) << at[2] << ": " << worst.describe();
+            EXPECT_LT(grouped.error, 1e-3) << at[2] << ": " << grouped.describe();
+            if (known) {
+                EXPECT_GT(compare(by("reference", 0.7, {}), want, 0.01).error, 0.02);
+            }
+        }
+}
+
+// A lamp behind a cloud: the cloud scatters from where it is.
+TEST(SurfaceMethod, ReferenceIsFiniteAndSeesClouds)
+{
+    const Wall wall;
+    Picture last;
+    for (double away : {1.5, 0.0, -4.0}) {
+        Json s = lit_scene({{"scattering", 1}, {"density", Json::array({gaussian({0, away, -3}, 1, 0.8)})}},
+                           Json::array({point_light({0, 0, -1}, 40)}));
+        s["effects"] = {{"surface", {{"method", "reference"}}}};
+        const Picture got = relit(cpu(), s, Picture(1, 1, 3, 1), Picture(1, 1, 1, 5), {{"albedo", Picture(1, 1, 3, 0.5f)}});
+        ASSERT_TRUE(std::isfinite(got.data[0]));
+        if (away == 0) {
+            EXPECT_LT(got.data[0], 0.8 * last.data[0]);
+        } else if (away == -4) {
+            EXPECT_NEAR(got.data[0], 1, 0.01);
+        }
+        last = got;
+    }
+    for (double extinction : {1e-12, 1e-6, 1e4})
+        for (const Vector &at : {Vector{0, 0, -5}, Vector{1e5, 0, -5}, Vector{1, 0, -4.9999}}) {
+            Json s = lit_scene({{"scattering", extinction}, {"g", 0.99}}, Json::array({point_light(at, 40)}));
+            s["effects"] = {{"surface", {{"method", "reference"}}}};
+            const Picture got =
+                relit(cpu(), s, Picture(1, 1, 3, 1), Picture(1, 1, 1, 5), {{"albedo", Picture(1, 1, 3, 0.5f)}});
+            EXPECT_TRUE(std::isfinite(got.data[0]) && got.data[0] >= 0) << extinction << ", " << at[0] << ", " << at[2];
+        }
+}
+
 #ifdef BRUME_GL
+TEST(SurfaceMethod, ReferenceRunsOnTheCpuAlone)
+{
+    Json s = lit_scene({{"scattering", 0.1}}, Json::array({point_light({0, 2, -2}, 10)}));
+    s["effects"] = {{"surface", {{"method", "reference"}}}};
+    EXPECT_THROW(Plan(backend("gl"), s.dump(), 8, 8), Failure);
+    EXPECT_NE(why(Plan(cpu(), s.dump(), 8, 8), "compose").find("method reference"), std::string::npos);
+}
+
 TEST(SurfaceMethod, BackendsAgree)
 {
     const Frame frame = lit_frame(40, 32);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference_ray.h"
+#include "airlight/reference_ray.h"
 
 namespace surface_reference {
 
@@ -116,14 +116,15 @@ template <class Function> void for_directions(vec3 axis, const Reflection &refle
         }
 }
 
-// Of one lamp. Where nothing but the angle from it matters (no Gaussians, no exponential terms), a ray serves a whole ring.
-inline double reflected_once(const brume::airlight::ReferenceScene &scene, const Reflection &reflection, int fine = 2,
-                             double tolerance = 1e-7)
+// Of lights[0], a point or spot. Where nothing but the angle from it matters a ray serves a whole ring.
+inline vec3 reflected_once(const brume::airlight::ReferenceScene &scene, const Reflection &reflection, int fine = 2,
+                           double tolerance = 1e-7)
 {
     const Light &lamp = scene.lights[0];
     const vec3 axis = glm::normalize(lamp.position);
-    const bool rings = scene.gaussians.empty() && scene.medium.term_count == 0;
-    double last = -1, arrives = 0, sum = 0;
+    const bool rings = scene.gaussians.empty() && scene.medium.term_count == 0 && lamp.type == light_point;
+    double last = -1;
+    vec3 arrives(0), sum(0);
     for_directions(axis, reflection, fine, [&](vec3 d, double gamma, double solid_angle) {
         const double reflects = reflection.of(d);
         if (!rings ? reflects > 0 : gamma != last) {
@@ -131,11 +132,11 @@ inline double reflected_once(const brume::airlight::ReferenceScene &scene, const
             const double off = std::clamp(gamma, 2 * smallest_light_angle, std::numbers::pi - 2 * smallest_light_angle);
             const vec3 aside = d - glm::dot(d, axis) * axis;
             const vec3 ray = off == gamma ? d : std::cos(off) * axis + std::sin(off) * glm::normalize(aside);
-            arrives = brume::airlight::reference_airlight(scene, ray, far_away, 0, 1, tolerance).radiance.x * std::sin(off) /
+            arrives = brume::airlight::reference_airlight(scene, ray, far_away, 0, 1, tolerance).radiance * std::sin(off) /
                       std::sin(gamma);
         }
         last = gamma;
-        sum += reflects * arrives * solid_angle;
+        sum += reflects * solid_angle * arrives;
     });
     return sum;
 }
