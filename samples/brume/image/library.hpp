@@ -18,6 +18,8 @@ struct Raster {
     std::string color_space = {};  ///< said in the file where the format can; empty: nothing is
     bool straight_alpha = false;
     double pixel_aspect = 1;
+    int bits = 0;  ///< of an integer's that the file is to have; 0: all
+    Metadata metadata = {};
 };
 
 /// What OpenImageIO does for the tool. It lies in a module of its own, `brume-image`: with what it depends on it takes
@@ -30,9 +32,9 @@ public:
     /// Throws FrameError that names the file.
     virtual std::unique_ptr<PictureSource> open(const std::filesystem::path &file, const std::string &format,
                                                 const ReadLimits &limits) const = 0;
-    /// Into `file`; errors name `final_name`.
-    virtual void write(const std::filesystem::path &file, const std::string &final_name, const std::string &format,
-                       const Raster &raster) const = 0;
+    /// Into `file`; errors name `final_name`. Returns the names of metadata that the format does not keep.
+    virtual std::vector<std::string> write(const std::filesystem::path &file, const std::string &final_name,
+                                           const std::string &format, const Raster &raster) const = 0;
     virtual void set_threads(int threads) const = 0;
 };
 

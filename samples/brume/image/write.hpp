@@ -18,14 +18,12 @@ struct AddedLayer {
     std::vector<float> pixels;  ///< interleaved
 };
 
-/// Attribute of the part with the colour: what made it. One of an earlier run is replaced or goes.
-constexpr const char *kProvenance = "brume:provenance";
-
 struct WriteOptions {
     bool primaries_changed = false;  ///< the colour has been converted: what the header says of its space would be false
     std::optional<Chromaticities> chromaticities = {};  ///< of the new space, where they are known
     bool untouched = false;                             ///< the pixels are those that were read
     bool decoded = false;          ///< but for what a conversion there and back leaves, so that copying is not the same
+    bool metadata = true;          ///< what the picture's file says of itself is written too
     std::string provenance = {};   ///< empty: not written
     std::string type = {};         ///< of channels, for what is no rewritten OpenEXR file; empty: what loses least
     std::string color_space = {};  ///< that the pixels are in, where files can say it: "sRGB" or empty

@@ -12,10 +12,10 @@ public:
     {
         return open_picture(file, format, limits);
     }
-    void write(const std::filesystem::path &file, const std::string &final_name, const std::string &format,
-               const Raster &raster) const override
+    std::vector<std::string> write(const std::filesystem::path &file, const std::string &final_name,
+                                   const std::string &format, const Raster &raster) const override
     {
-        write_picture(file, final_name, format, raster);
+        return write_picture(file, final_name, format, raster);
     }
     void set_threads(int threads) const override { OIIO::attribute("threads", threads); }
 };
