@@ -26,15 +26,6 @@ double to_srgb(double v)
     return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }
 
-std::vector<float> floats(int channels, const std::function<double(int pixel, int channel)> &value)
-{
-    std::vector<float> out;
-    for (int i = 0; i < kCount; ++i)
-        for (int c = 0; c < channels; ++c)
-            out.push_back(float(value(i, c)));
-    return out;
-}
-
 class Pictures : public testing::Test {
 protected:
     Pictures()

@@ -190,6 +190,15 @@ WriteReport write_raster(const Frame &frame, const std::filesystem::path &output
 
 }  // namespace
 
+void write_display(const Display &picture, const std::filesystem::path &output)
+{
+    Raster raster{picture.width, picture.height, {"R", "G", "B"}, SampleType::kUint8, picture.rgb.data()};
+    raster.color_space = "sRGB";
+    PendingFile pending(output);
+    image_library().write(pending.path(), output.string(), "png", raster);
+    pending.commit();
+}
+
 void write_layer(const Frame &frame, const AddedLayer &layer, const std::filesystem::path &output)
 {
     const Format *format = format_of(output);

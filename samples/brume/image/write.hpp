@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/frame.hpp"
+#include "image/library.hpp"
 
 namespace brume::tool {
 
@@ -33,6 +34,9 @@ struct WriteReport {
     std::uint64_t clamped = 0;  ///< values beyond half's 65504, written as 65504
     std::vector<std::string> warnings;
 };
+
+/// A PNG of what a screen shows. Written beside and renamed, as every output.
+void write_display(const Display &picture, const std::filesystem::path &output);
 
 /// A layer by itself, as it is: integers hold 0 to 1, in the most bits that the format has. One channel where all are alike.
 void write_layer(const Frame &frame, const AddedLayer &layer, const std::filesystem::path &output);

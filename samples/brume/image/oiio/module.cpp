@@ -17,6 +17,15 @@ public:
     {
         return write_picture(file, final_name, format, raster);
     }
+    std::vector<float> shrunk(const float *pixels, int channels, int width, int height, int to_width,
+                              int to_height) const override
+    {
+        return shrink_picture(pixels, channels, width, height, to_width, to_height);
+    }
+    Display sheet(const std::vector<Display> &cells, const std::vector<std::string> &labels) const override
+    {
+        return draw_sheet(cells, labels);
+    }
     void set_threads(int threads) const override { OIIO::attribute("threads", threads); }
 };
 
