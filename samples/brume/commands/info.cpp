@@ -153,8 +153,9 @@ void print_text(const ordered_json &info)
         for (const auto &note : info["frame_notes"])
             fmt::print("frames   {}\n", text(note));
     fmt::print("display  {}, pixel aspect {}\n", window_text(info["display_window"]), info["pixel_aspect"].get<double>());
-    if (info.contains("orientation"))
-        fmt::print("turned   upright, by the orientation {}: depth must be upright too\n", info["orientation"].get<int>());
+    if (info.contains("notes"))
+        for (const auto &note : info["notes"])
+            fmt::print("file     {}\n", text(note));
     for (const auto &part : info["parts"]) {
         std::string channels;
         for (const auto &c : part["channels"])
@@ -211,8 +212,8 @@ int info(const InfoOptions &options)
         info["frame_notes"] = notes;
     info["display_window"] = window_of(file.part(0).display_window);
     info["pixel_aspect"] = file.part(0).pixel_aspect;
-    if (const int orientation = file.source().orientation; orientation != 1)
-        info["orientation"] = orientation;
+    if (!file.source().notes.empty())
+        info["notes"] = file.source().notes;
     info["parts"] = parts_of(file);
 
     std::optional<ColorChoice> color;

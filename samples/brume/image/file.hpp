@@ -36,6 +36,7 @@ public:
     bool straight_alpha = false;                       ///< colour is not multiplied by alpha
     int orientation = 1;                               ///< that the file says, as EXIF counts them; pixels are given upright
     int bits = 0;                                      ///< that the file uses of an integer's; 0: all
+    std::vector<std::string> notes = {};               ///< what a person should know of how it is read
 };
 
 /// A picture's file, whose headers have been read and found sane. Copies share it.

@@ -115,8 +115,10 @@ public:
         : file_(std::move(file)), format_(std::move(format))
     {
         OIIO::ImageSpec spec;
-        opened(file_, format_, spec);
+        const auto input = opened(file_, format_, spec);
         check(spec, limits);
+        if (input->seek_subimage(1, 0))
+            notes.push_back("has several pictures: the first is read, and it alone is written");
         PartInfo part;
         part.data_window = {{spec.x, spec.y}, {spec.x + spec.width - 1, spec.y + spec.height - 1}};
         part.display_window = {{spec.full_x, spec.full_y},
@@ -125,6 +127,8 @@ public:
         orientation = spec.get_int_attribute("Orientation", 1);
         metadata_ = metadata_of(spec);
         if (orientation != 1) {
+            notes.push_back(
+                fmt::format("is turned upright by its orientation {}: its depth must be upright too", orientation));
             part.data_window = part.display_window = {{0, 0}, {spec.width - 1, spec.height - 1}};
             if (lies_on_its_side()) {
                 std::swap(part.data_window.max.x, part.data_window.max.y);
@@ -137,6 +141,8 @@ public:
         }
         if (spec.format == OIIO::TypeDesc::UINT16)
             bits = spec.get_int_attribute("oiio:BitsPerSample", 16) % 16;
+        if (spec.nchannels == 1)
+            spec.channelnames = {"Y"};  // a grey DPX has R
         for (const std::string &name : spec.channelnames) {
             ChannelInfo channel{name, "", "", name.substr(name.rfind('.') + 1)};
             channel.layer = name.substr(0, name.size() - channel.base.size() - (name.size() > channel.base.size()));
