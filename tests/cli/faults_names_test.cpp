@@ -1,6 +1,10 @@
+#include <thread>
+
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/capability.h>
 #include <nlohmann/json.hpp>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -94,6 +98,44 @@ TEST_F(Names, LoopsOfLinksAreAWrongRequestInWords)
         EXPECT_EQ(r.err.find("filesystem"), std::string::npos) << r.err;
         EXPECT_FALSE(fs::exists(folder_ / "o.exr"));
     }
+}
+
+TEST_F(Names, FoldersWithoutPermissionAreAWrongRequestInWords)
+{
+    const fs::path locked = folder_ / "locked", full = folder_ / "full", open = folder_ / "open";
+    for (const fs::path &folder : {locked, full, open})
+        fs::create_directory(folder);
+    fs::copy_file(in_, locked / "a.0001.exr");
+    fs::permissions(locked, fs::perms::none);
+    fs::permissions(full, fs::perms::owner_read | fs::perms::owner_exec);
+    const std::string out = (open / "o.exr").string(), sequence = (open / "o.####.exr").string();
+    const std::vector<std::vector<std::string>> wrong{
+        {(locked / "a.0001.exr").string(), out},
+        {(locked / "a.####.exr").string(), sequence},
+        {in_.string(), (full / "o.exr").string()},
+        {in_.string(), (full / "new/o.exr").string()},
+        {in_.string(), (locked / "o.exr").string()},
+        {in_.string(), out, "--depth", (locked / "a.0001.exr").string() + ":Z"},
+        {in_.string(), out, "--stats", (full / "s.json").string()},
+        {in_.string(), out, "--preview", (full / "p.png").string()}};
+    // Root may do everything unless what a thread starts loses the capabilities for that.
+    bool bound = ::geteuid() != 0;
+    std::thread([&] {
+        bound |= ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) == 0 && ::prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH) == 0;
+        for (std::vector<std::string> words : wrong) {
+            const Result r = run(words[0], words[1], {words.begin() + 2, words.end()});
+            if (!bound)
+                break;
+            EXPECT_EQ(r.status, 2) << words[0] << ' ' << words[1] << r.err;
+            EXPECT_NE(r.err.find("Permission denied"), std::string::npos) << r.err;
+            EXPECT_EQ(r.err.find("filesystem"), std::string::npos) << r.err;
+            EXPECT_FALSE(fs::exists(out));
+        }
+    }).join();
+    for (const fs::path &folder : {locked, full})
+        fs::permissions(folder, fs::perms::owner_all);
+    if (!bound)
+        GTEST_SKIP() << "root here keeps its capabilities";
 }
 
 TEST_F(Names, DevicesAndPipesAreLeftAlone)

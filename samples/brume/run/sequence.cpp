@@ -73,6 +73,10 @@ public:
                 progress_.note(note);
         for (const std::size_t i : to_do_)
             make_folder_of(run_.frames[i].files.output);
+        if (!options_.preview.empty())
+            make_folder_of(options_.preview);
+        if (!options_.stats.empty() && !is_stream(options_.stats))
+            make_folder_of(options_.stats);
         catch_interrupts();
         progress_ = Progress(to_do_.size(), options_.quiet);
         const auto start = std::chrono::steady_clock::now();
