@@ -1,5 +1,7 @@
+#include <cmath>
 #include <thread>
 
+#include <ImfStandardAttributes.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/capability.h>
@@ -49,6 +51,40 @@ TEST_F(Names, FoldersAreTakenAsTheyAre)
     const Result r = run(folder_ / "a.%V.####.exr", (folder_ / "o.####.exr").string());
     EXPECT_EQ(r.status, 2);
     EXPECT_NE(r.err.find("%V stands for a view's name"), std::string::npos) << r.err;
+}
+
+TEST_F(Names, AViewsNameIsPutWhereItBelongs)
+{
+    write_text(scene_, R"({"brume":1,"medium":{"scattering":0,"absorption":0.1}})");
+    for (const auto &[view, z] : {std::pair{"left", 3.0}, std::pair{"right", 5.0}}) {
+        fs::create_directory(folder_ / view);
+        write_exr(folder_ / view / (std::string("p.") + view + ".0001.exr"), {{rgb("", Imf::FLOAT)}});
+        write_exr(folder_ / (std::string("z.") + view[0] + ".0001.exr"), {{{{"Z", Imf::FLOAT, constant(z)}}}});
+    }
+    const std::string in = (folder_ / "%V/p.%V.####.exr").string(), depth = (folder_ / "z.%v.####.exr").string() + ":Z";
+    for (const auto &[view, z] : {std::pair{"left", 3.0}, std::pair{"right", 5.0}}) {
+        const Result r =
+            run(in, (folder_ / "out/%V.####.exr").string(), {"--view", view, "--depth", depth, "--depth-kind", "ray"});
+        ASSERT_EQ(r.status, 0) << r.err;
+        EXPECT_NEAR(read_plane(folder_ / "out" / (std::string(view) + ".0001.exr"), "R")[0], 0.25 * std::exp(-0.1 * z),
+                    1e-4);
+        EXPECT_EQ(brume({"info", in, "--view", view, "--depth", depth}).status, 0);
+        EXPECT_EQ(brume({"plan", scene_.string(), in, "--view", view, "--depth", depth, "--vfov", "50"}).status, 0);
+    }
+    const Result r = run(in, (folder_ / "o.####.exr").string(), {"--depth", depth});
+    EXPECT_EQ(r.status, 2);
+    EXPECT_NE(r.err.find("expected --view"), std::string::npos) << r.err;
+    // Of a file with both views the name of the output says which.
+    TestPart both{rgbz()};
+    for (auto &c : rgb("left."))
+        both.channels.push_back(c);
+    both.edit = [](Imf::Header &h) { Imf::addMultiView(h, {"right", "left"}); };
+    write_exr(in_, {both});
+    ASSERT_EQ(run(in_, (folder_ / "both.%V.exr").string(), {"--view", "left", "--depth", "Z"}).status, 0);
+    EXPECT_EQ(read_plane(folder_ / "both.left.exr", "R"), read_plane(in_, "R"));
+    EXPECT_NE(read_plane(folder_ / "both.left.exr", "left.R"), read_plane(in_, "left.R"));
+    write_exr(folder_ / "100%Vol.exr", {{rgbz()}});
+    EXPECT_EQ(run(folder_ / "100%Vol.exr", (folder_ / "o.exr").string()).status, 0);
 }
 
 TEST_F(Names, NamesMayBeAsLongAsTheyCanBe)

@@ -249,7 +249,10 @@ void add_info(CLI::App &app, Action &chosen)
     command->add_flag("--json", options->json, "Print JSON");
     options->picture.add_to(*command);
     add_input_option(*command, options->inputs);
-    command->callback([&chosen, options] { chosen = [options] { return info(*options); }; });
+    command->callback([&chosen, options] {
+        options->picture.name_view({&options->input});
+        chosen = [options] { return info(*options); };
+    });
 }
 
 }  // namespace brume::tool
