@@ -198,6 +198,30 @@ TEST_F(Names, DevicesAndPipesAreLeftAlone)
     EXPECT_EQ(json::parse(heard.substr(0, std::size_t(bytes)))["totals"]["done"], 1);
 }
 
+TEST_F(Names, PipesAreNoPicturesAndNotWaitedFor)
+{
+    const std::string pipe = (folder_ / "pipe.exr").string(), out = (folder_ / "o.exr").string(), in = in_.string(),
+                      scene = scene_.string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    ASSERT_EQ(::mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+    for (const std::vector<std::string> &words :
+         std::vector<std::vector<std::string>>{{"run", scene, pipe, "-o", out, "--vfov", "50"},
+                                               {"run", scene, (folder_ / "pipe.png").string(), "-o", out, "--vfov", "50"},
+                                               {"run", scene, in, "-o", out, "--vfov", "50", "--depth", pipe + ":Z"},
+                                               {"run", scene, in, "-o", out, "--camera", pipe},
+                                               {"info", pipe},
+                                               {"compare", pipe, in},
+                                               {"compare", in, in, "--mask", pipe},
+                                               {"sheet", in, pipe, "-o", (folder_ / "s.png").string()}}) {
+        const Result r = brume(words, 20);
+        EXPECT_TRUE(r.status == 1 || r.status == 2) << words[0] << r.status << r.err;
+        EXPECT_NE((r.out + r.err).find("is a device or a pipe (expected a picture's file)"), std::string::npos)
+            << words[0] << r.out << r.err;
+    }
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_NE(run(folder_.path(), out).err.find("is a folder"), std::string::npos);
+}
+
 TEST_F(Names, LinksStayAndTheirTargetsAreRenewed)
 {
     fs::create_directories(folder_ / "store");
