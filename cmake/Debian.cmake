@@ -79,7 +79,7 @@ HDR and other pictures that are no OpenEXR files. It stands on OpenImageIO.")
 brume_deb(python python3-brume python "python3, python3-numpy, ${library} ${same}" "fog for finished HDR images, Python package
 Fogs numpy arrays without copying them, by scenes that are Python's own dicts,
 and compares pictures with golden ones in pytest.")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/python3-brume/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/python3-brume/prerm)
 brume_deb(blender brume-blender graphics "brume (>= ${PROJECT_VERSION})" "fog for finished HDR images, Blender add-on
 Fogs what Blender renders, frame by frame as it is written or a folder of
 frames afterwards, and exports shots as scene files of the command brume.")

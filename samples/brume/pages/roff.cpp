@@ -1,6 +1,7 @@
 #include "pages/roff.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include <brume/brume.h>
 #include <fmt/format.h>
