@@ -59,7 +59,7 @@ inside 'test -f /usr/share/man/man1/brume-run.1.gz; source /usr/share/bash-compl
 
 say "brume-image: other pictures"
 add brume-image
-inside 'cd /work; brume info picture.png >said.txt || true; grep -q picture.png said.txt; brume compare picture.png picture.png'
+inside 'cd /work; brume compare picture.png picture.png >/dev/null'
 
 say "python3-brume"
 add python3-brume

@@ -32,7 +32,7 @@ echo "$out/$name.tar.xz: $(($(stat -c %s "$out/$name.tar.xz") / 1024)) KiB"
 # A machine: a shell that is linked statically, and frames.
 root=$work/root
 mkdir -p "$root"/{bin,opt,tmp,work,dev,lib64,lib/x86_64-linux-gnu}
-(cd "$work" && apt-get download -qq busybox-static >/dev/null && dpkg-deb -x busybox-static_*.deb busybox)
+(cd "$work" && apt-get download -qq -o APT::Sandbox::User=root busybox-static >/dev/null && dpkg-deb -x busybox-static_*.deb busybox)
 cp "$(find "$work/busybox" -name busybox -type f -perm -1)" "$root/bin/busybox"
 for applet in sh dirname readlink; do ln -s busybox "$root/bin/$applet"; done
 mknod -m 666 "$root/dev/null" c 1 3
