@@ -89,7 +89,7 @@ void add_output_options(CLI::App &command, ColorRequest &spaces, std::string &ou
     command
         .add_option("--output-type", output_type,
                     "uint8, uint16, half or float, for outputs that are no rewritten EXR (default: what loses least)")
-        ->type_name("TYPE");
+        ->type_name("{uint8,uint16,half,float}");
 }
 
 void PictureOptions::add_to(CLI::App &command)
