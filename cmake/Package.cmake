@@ -1,4 +1,4 @@
-# Installation: headers, library, effects, CMake package, pkg-config file; CPack makes the .deb.
+# Installation: headers, library, effects, CMake package, pkg-config file; cmake/Debian.cmake makes packages of it.
 include(CMakePackageConfigHelpers)
 install(TARGETS brume EXPORT brume-targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
@@ -8,21 +8,17 @@ file(GLOB maths CONFIGURE_DEPENDS shaders/*.hpp shaders/*.inc)
 install(FILES ${maths} LICENSE DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/brume/maths COMPONENT development)
 install(DIRECTORY shaders/lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/brume/maths COMPONENT development)
 install(EXPORT brume-targets NAMESPACE brume:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume COMPONENT development)
-configure_package_config_file(cmake/brume-config.cmake.in ${CMAKE_BINARY_DIR}/brume-config.cmake
+configure_package_config_file(cmake/brume-config.cmake.in ${PROJECT_BINARY_DIR}/brume-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/brume-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES cmake/BrumeEmbed.cmake cmake/EmbedText.cmake ${CMAKE_BINARY_DIR}/brume-config.cmake ${CMAKE_BINARY_DIR}/brume-config-version.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/brume-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES cmake/BrumeEmbed.cmake cmake/EmbedText.cmake ${PROJECT_BINARY_DIR}/brume-config.cmake ${PROJECT_BINARY_DIR}/brume-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brume COMPONENT development)
 # Relative, so that `cmake --install --prefix` and the .deb may put it anywhere.
 file(RELATIVE_PATH BRUME_PREFIX_FROM_PC /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
-configure_file(cmake/brume.pc.in ${CMAKE_BINARY_DIR}/brume.pc @ONLY)
-install(FILES ${CMAKE_BINARY_DIR}/brume.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-
-set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_NAME brume)
-set(CPACK_PACKAGE_CONTACT "The Brume authors")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
-include(CPack)
+configure_file(cmake/brume.pc.in ${PROJECT_BINARY_DIR}/brume.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/brume.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+if(BRUME_DEBIAN)
+  include(cmake/Debian.cmake)
+else()
+  install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+endif()

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "tables.h"
 #include "state.h"
 
 namespace surface {
@@ -36,6 +37,7 @@ public:
     {
         state_->width = request.width;
         state_->height = request.height;
+        state_->method = read_method(request.parameters);
     }
 
     brume_status plan(std::unique_ptr<State> &out);
@@ -53,6 +55,7 @@ private:
     const char *why_not() const;
     brume_status plan_normals(double pixels);
     brume_status explain_material();
+    brume_status plan_method();
     brume_status plan_groups(double pixels, double of_light);
 
     const brume_services &services_;
@@ -61,6 +64,21 @@ private:
     const brume_plugin_scene &scene_;
     std::unique_ptr<State> state_;
 };
+
+std::string about(Method method)
+{
+    const char *const methods[] = {"calibrated: scattered any number of times", "sun: scattered once (Sun et al. 2005)",
+                                   "psf: scattered once, in spherical harmonics (Zhou et al. 2007)",
+                                   "reference: scattered once, by quadrature"};
+    return std::string("what lights give surfaces through the medium, method ") + methods[size_t(method)];
+}
+
+// Of one lamp at one pixel.
+double operations_of(Method method, double followed)
+{
+    const double on_top[] = {0, 1000, 400, 1e6};
+    return 200 + on_top[size_t(method)] + followed * (method == Method::reference ? 1e6 : 1);
+}
 
 // NULL: it runs.
 const char *Planner::why_not() const
@@ -74,7 +92,9 @@ const char *Planner::why_not() const
         return "the medium's density is zero everywhere";
     if (!any(m.scattering) && !any(m.absorption))
         return "the medium neither scatters nor absorbs";
-    if (scene_.light_count == 0)
+    if (scene_.light_count == 0 && state_->method == Method::psf && scene_.environment_count == 0)
+        return "no lights and no environment";
+    if (scene_.light_count == 0 && state_->method != Method::psf)
         return "no lights";
     return nullptr;
 }
@@ -102,6 +122,35 @@ brume_status Planner::explain_material()
     return entry(false, "highlights", "no layers specular and roughness: highlights count as diffuse", 0, 0);
 }
 
+brume_status Planner::plan_method()
+{
+    if (state_->method == Method::reference && request_.backend != BRUME_BACKEND_CPU)
+        return services_.fail(
+            host_, BRUME_ERROR_UNSUPPORTED,
+            "method: reference on OpenGL; expected calibrated, sun or psf, or the CPU, on which alone references run");
+    if (state_->method != Method::sun && state_->method != Method::psf)
+        return BRUME_OK;
+    const bool psf = state_->method == Method::psf;
+    const auto &m = *scene_.medium;
+    if (m.phase[0] != 0 || m.phase[3] != 0)
+        if (brume_status s = entry(false, "phase",
+                                   std::string("method ") + (psf ? "psf" : "sun") +
+                                       ": scattered alike in all directions, whatever the medium's phase function",
+                                   0, 0))
+            return s;
+    if (psf && scene_.environment_count > 0 &&
+        (m.term_count > 0 || (m.constant > 0 && scene_.camera->sky != int32_t(BRUME_SKY_CLAMP))))
+        if (brume_status s =
+                entry(false, "environment",
+                      "constant and exponential density has no end without a sky's distance: the environment's part "
+                      "stays as it is",
+                      0, 0))
+            return s;
+    const std::vector<float> &table = psf ? psf_table() : lobe_table();
+    const int32_t channels = psf ? 4 : 1;
+    return services_.upload(host_, upload_table, channels, table.data(), table.size() / size_t(channels), &state_->table);
+}
+
 brume_status Planner::plan_groups(double pixels, double of_light)
 {
     if (!request_.layers[layer_light_group])
@@ -125,10 +174,13 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     const double pixels = double(state_->width) * state_->height, lights = scene_.light_count;
     const bool followed = scene_.gaussian_count <= most_gaussians;
-    const double of_light = 200 + 30.0 * scene_.medium->term_count + (followed ? 20.0 * scene_.gaussian_count : 0);
+    const double of_light =
+        operations_of(state_->method, 30.0 * scene_.medium->term_count + (followed ? 20.0 * scene_.gaussian_count : 0));
     if (brume_status s = plan_normals(pixels))
         return s;
     if (brume_status s = explain_material())
+        return s;
+    if (brume_status s = plan_method())
         return s;
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
@@ -139,7 +191,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
                           std::to_string(most_gaussians) + " are followed",
                       0, 0))
             return s;
-    if (brume_status s = entry(true, "compose", "what lights give surfaces through the medium", pixels * (16 + 4 + 16 + 16),
+    if (brume_status s = entry(true, "compose", about(state_->method), pixels * (16 + 4 + 16 + 16),
                                pixels * (40 + (state_->rest[0] ? 0 : lights * of_light))))
         return s;
     if (brume_status s = create_passes(services_, host_, *state_))
@@ -177,6 +229,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.thread_safety = BRUME_THREADS_SAFE;
         // Pictures whose surfaces emit would be taken for lit ones, were it not for these layers.
         e.wanted = BRUME_WANTED_WITH_LAYERS;
+        e.parameters = parameter_table().data();
+        e.parameter_count = uint32_t(parameter_table().size());
         e.layers = layer_table;
         e.layer_count = layer_count;
         e.uses = used;

@@ -17,18 +17,20 @@ using namespace brume_passes;
 constexpr brume_slot normals_slots[] = {fetch("depth"), write("normals")};
 static_assert(std::size(normals_slots) == normals::slot_count);
 
-constexpr brume_slot group_slots[] = {fetch("rest"),     fetch("lit"),       fetch("group"),     fetch("depth"),
-                                      fetch("normals"),  fetch("lights"),    fetch("gaussians"), fetch("albedo"),
-                                      fetch("specular"), fetch("roughness"), write("rest_out"),  write("lit_out")};
+constexpr brume_slot group_slots[] = {fetch("rest"),    fetch("lit"),      fetch("group"),     fetch("depth"),
+                                      fetch("normals"), fetch("lights"),   fetch("gaussians"), fetch("table"),
+                                      fetch("albedo"),  fetch("specular"), fetch("roughness"), write("rest_out"),
+                                      write("lit_out")};
 static_assert(std::size(group_slots) == group::slot_count);
 
-constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),       fetch("lit"),       fetch("depth"),
-                                        fetch("normals"),     fetch("lights"),     fetch("ungrouped"), fetch("gaussians"),
-                                        fetch("environment"), fetch("albedo"),     fetch("specular"),  fetch("roughness"),
-                                        write("result"),      write("surface_out")};
+constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),   fetch("lit"),        fetch("depth"),
+                                        fetch("normals"),     fetch("lights"), fetch("ungrouped"),  fetch("gaussians"),
+                                        fetch("environment"), fetch("table"),  fetch("albedo"),     fetch("specular"),
+                                        fetch("roughness"),   write("result"), write("surface_out")};
 static_assert(std::size(compose_slots) == compose::slot_count);
 
-constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, settings, light_count),
+constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, settings, method),
+                                              BRUME_CONSTANT_OF(Constants, settings, light_count),
                                               BRUME_CONSTANT_OF(Constants, settings, gaussian_count),
                                               BRUME_CONSTANT_OF(Constants, settings, environment_order),
                                               BRUME_CONSTANT_OF(Constants, settings, world_normals),
@@ -60,6 +62,7 @@ public:
     Frame(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)
         : services_(services), host_(host), frame_(frame), state_(state), scene_(*frame.scene)
     {
+        constants_.settings.method = int32_t(state.method);
         constants_.settings.light_count = int32_t(scene_.light_count);
         constants_.settings.gaussian_count = scene_.gaussian_count <= most_gaussians ? int32_t(scene_.gaussian_count) : 0;
         for (uint32_t n = scene_.environment_count;
@@ -144,6 +147,7 @@ brume_status Frame::groups()
         images[Slot::normals] = normals_;
         images[lights] = product(product_lights);
         images[gaussians] = product(product_gaussians);
+        images[table] = state_.table;
         images[albedo] = frame_.layers[layer_albedo].image;
         images[specular] = frame_.layers[layer_specular].image;
         images[roughness] = frame_.layers[layer_roughness].image;
@@ -171,6 +175,7 @@ brume_status Frame::compose()
     images[ungrouped] = state_.ungrouped;
     images[gaussians] = product(product_gaussians);
     images[environment] = state_.environment;
+    images[table] = state_.table;
     images[albedo] = frame_.layers[layer_albedo].image;
     images[specular] = frame_.layers[layer_specular].image;
     images[roughness] = frame_.layers[layer_roughness].image;
@@ -183,13 +188,16 @@ brume_status Frame::compose()
 
 brume_status create_passes(const brume_services &services, brume_host host, State &state)
 {
+    const bool reference = state.method == Method::reference;
     if (state.normals)
         if (brume_status s = create_pass(services, host, "normals", normals_slots, normals_rows, state.normals_pass))
             return s;
     if (state.rest[0])
-        if (brume_status s = create_pass(services, host, "group", group_slots, group_rows, state.group_pass))
+        if (brume_status s = create_pass(services, host, "group", group_slots, reference ? group_reference_rows : group_rows,
+                                         state.group_pass))
             return s;
-    return create_pass(services, host, "compose", compose_slots, compose_rows, state.compose_pass);
+    return create_pass(services, host, "compose", compose_slots, reference ? compose_reference_rows : compose_rows,
+                       state.compose_pass);
 }
 
 brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)

@@ -27,6 +27,7 @@ enum Slot {
     normals,
     lights,
     gaussians,
+    table,
     albedo,
     specular,
     roughness,
@@ -47,6 +48,7 @@ enum Slot {
     ungrouped,
     gaussians,
     environment,
+    table,
     albedo,
     specular,
     roughness,
@@ -59,5 +61,7 @@ enum Slot {
 brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+brume_status group_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 
 }  // namespace surface

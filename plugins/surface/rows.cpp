@@ -51,7 +51,7 @@ brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t la
     const Medium medium = medium_of(*call->scene);
     const Camera camera = camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
-    const Texture gaussians = texture_of(slots[group::gaussians]);
+    const Texture gaussians = texture_of(slots[group::gaussians]), table = texture_of(slots[group::table]);
     const Light light = light_at(texture_of(slots[group::lights]), constants.light);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[group::depth], x, y),
@@ -61,7 +61,7 @@ brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t la
         const Divided after = divided_by_group(
             medium, constants.settings, surface, light,
             material_at(constants.settings, slots[group::albedo], slots[group::specular], slots[group::roughness], x, y),
-            gaussians, before, vec3(load(slots[group::group], x, y)));
+            gaussians, table, before, vec3(load(slots[group::group], x, y)));
         store(slots[group::rest_out], x, y, vec4(after.rest, 1.0f));
         store(slots[group::lit_out], x, y, vec4(after.lit, 1.0f));
     });
@@ -74,7 +74,8 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
     const Camera camera = camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
     const Texture lights = texture_of(slots[compose::lights]), ungrouped = texture_of(slots[compose::ungrouped]),
-                  gaussians = texture_of(slots[compose::gaussians]), environment = texture_of(slots[compose::environment]);
+                  gaussians = texture_of(slots[compose::gaussians]), environment = texture_of(slots[compose::environment]),
+                  table = texture_of(slots[compose::table]);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const vec4 source = load(slots[compose::color], x, y);
         const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[compose::depth], x, y),

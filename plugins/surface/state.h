@@ -3,6 +3,8 @@
 
 #include <brume/brume_plugin.h>
 
+#include "parameters.h"
+
 namespace surface {
 
 // In the order of the effect's tables.
@@ -10,7 +12,7 @@ enum Layer { layer_normal, layer_light_group, layer_albedo, layer_specular, laye
 enum Product { product_lights, product_gaussians, product_density_rgb, product_count };
 
 // Of the data images.
-enum Upload : uint32_t { upload_ungrouped, upload_environment };
+enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_table };
 
 // Of more Gaussians than these the light's way is not followed through: each costs every pixel and lamp.
 constexpr uint32_t most_gaussians = 256;
@@ -19,11 +21,13 @@ constexpr uint32_t most_gaussians = 256;
 struct State {
     int width = 0;
     int height = 0;
+    Method method = Method::calibrated;
     brume_plugin_image normals = nullptr;  // from depth
     // Before and after one lamp's own layer, by turns.
     brume_plugin_image rest[2] = {};
     brume_plugin_image lit[2] = {};
 
+    brume_plugin_image table = nullptr;  // the method's
     brume_plugin_image ungrouped = nullptr, environment = nullptr;
     std::vector<float> ungrouped_values, environment_values;
 

@@ -18,14 +18,17 @@ PURE vec4 environment_factors(sampler2D environment_table, float depth, int uppe
     return mix(a, b, x - float(k)) * (depth * exp(-depth));
 }
 
-// Airlight of the environment where the density integral to what the pixel shows is `density`, colour by colour, times the
-// albedo. environment: real spherical harmonics in world axes, orthonormal, without the Condon-Shortley phase, texel
-// l^2 + l + m for degrees l < order <= 6. Never negative, as their ringing would have it.
-PURE vec3 environment_airlight(IN(Medium) medium, IN(Camera) camera, sampler2D environment, sampler2D environment_table,
-                               int order, vec3 direction, float density)
+// The environment in a direction, degree by degree. environment: real spherical harmonics in world axes, orthonormal, without the
+// Condon-Shortley phase, texel l^2 + l + m for degrees l < order <= 6.
+struct Degrees {
+    vec3 of[6];
+};
+
+PURE Degrees environment_degrees(sampler2D environment, int order, vec3 d)
 {
-    vec3 d = in_world(camera, direction);
-    vec3 degree[6] = {vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0))};
+    Degrees degree;
+    for (int l = 0; l < 6; ++l)
+        degree.of[l] = vec3(R(0.0));
     float diagonal = R(0.282094791774);  // Y_mm = diagonal * Re or Im (x + i y)^m
     float re = R(1.0);
     float im = R(0.0);
@@ -53,9 +56,18 @@ PURE vec3 environment_airlight(IN(Medium) medium, IN(Camera) camera, sampler2D e
                 vec4 s = data_texel(environment, l * l + l - m);
                 coefficient += im * vec3(s.x, s.y, s.z);
             }
-            degree[l] += value * coefficient;
+            degree.of[l] += value * coefficient;
         }
     }
+    return degree;
+}
+
+// Airlight of the environment where the density integral to what the pixel shows is `density`, colour by colour, times the
+// albedo. Never negative, as spherical harmonics' ringing would have it.
+PURE vec3 environment_airlight(IN(Medium) medium, IN(Camera) camera, sampler2D environment, sampler2D environment_table,
+                               int order, vec3 direction, float density)
+{
+    Degrees degree = environment_degrees(environment, order, in_world(camera, direction));
     vec3 t = min(optical_depth(medium, density), vec3(density_limit));
     vec3 extinction = medium.scattering + medium.absorption;
     vec3 sum = vec3(R(0.0));
@@ -63,7 +75,7 @@ PURE vec3 environment_airlight(IN(Medium) medium, IN(Camera) camera, sampler2D e
         vec4 low = environment_factors(environment_table, t[c], 0);
         vec4 high = environment_factors(environment_table, t[c], 1);
         for (int l = 0; l < order; ++l)
-            sum[c] += degree[l][c] * (l < 4 ? low[l] : high[l - 4]);
+            sum[c] += degree.of[l][c] * (l < 4 ? low[l] : high[l - 4]);
         sum[c] = clamp(sum[c], R(0.0), density_limit) * (medium.scattering[c] / max(extinction[c], R(1e-30)));
     }
     return sum;

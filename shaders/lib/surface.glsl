@@ -1,6 +1,9 @@
-// What the medium between lamps and surfaces makes of the light that surfaces receive. Needs airlight.glsl, lamp_field.glsl.
-//
-// A lamp gives a plane that takes all that falls on it, under the cosine c at r, in clear air I c / r^2, and in the medium
+// What the medium between lamps and surfaces makes of the light that surfaces receive. Needs airlight.glsl, lamp_field.glsl,
+// environment.glsl.
+#include "surface_published.glsl"
+
+// Method `calibrated`. A lamp gives a plane that takes all that falls on it, under the cosine c at r, in clear air I c / r^2, and in
+// the medium
 //   I / r^2 [ N(x) c + (1 - a) (h' x^2 / x'^3 N(x') + k x / (1 + (10.7 - 4.3 g) x^2) N(x)) ],  x = s' r,  a = sigma_a / s',
 // N being the lamp's net flux in an endless medium; h' = c x + 1.42 the height of its image below the plane, x' the way from there,
 // which is right from afar; k what one scattering gives more than it takes, fitted to paths (surface_calibration says how
@@ -44,6 +47,33 @@ PURE float received_share(float scattering, float absorption, float asymmetry, f
 {
     Received r = received(scattering, absorption, asymmetry, cosine);
     return max(r.along + r.aside / max(cosine, least_cosine), R(0.0));
+}
+
+// The same by a published method, whose `aside` comes at all cosines.
+PURE Received published(int method, sampler2D table, float scattering, float absorption, float cosine)
+{
+    float depth = min(scattering + absorption, orders_depth_limit);
+    float once = scattering / max(scattering + absorption, R(1e-30)) * pi * published_lobe(method, table, depth, R(1.0), cosine);
+    return Received(exp(-depth), once);
+}
+
+struct SurfaceSettings {
+    int method;
+    int light_count;
+    int gaussian_count;
+    int environment_order;
+    int world_normals;
+    int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
+};
+
+// What a surface receives of a lamp over what it would in clear air, by the method that is asked for.
+PURE float share_by_method(IN(SurfaceSettings) settings, sampler2D table, float scattering, float absorption, float asymmetry,
+                           float cosine)
+{
+    if (settings.method == method_calibrated)
+        return received_share(scattering, absorption, asymmetry, cosine);
+    Received r = published(settings.method, table, scattering, absorption, cosine);
+    return r.along + r.aside / max(cosine, least_cosine);
 }
 
 // Where the surface is, and how it lies.
@@ -105,21 +135,22 @@ PURE float density_to_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) lig
     return clamp(p, R(0.0), density_limit);
 }
 
-// received_share() of each colour. Parallel light comes through a medium that has no end, which the model does not know: its share
+// share_by_method() of each colour. Parallel light comes through a medium that has no end, which the model does not know: its share
 // stays as it is.
-PURE vec3 received_of_light(IN(Medium) medium, IN(Surface) surface, IN(Light) light, sampler2D gaussians, int gaussian_count)
+PURE vec3 received_of_light(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
+                            sampler2D gaussians, sampler2D table)
 {
     if (light.type == light_directional)
         return vec3(R(1.0));
-    float p = density_to_lamp(medium, surface, light, gaussians, gaussian_count);
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     float cosine = cosine_to(surface, light);
     vec3 share = vec3(R(1.0));
     for (int c = 0; c < 3; ++c) {
         if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1])
             share[c] = share[c - 1];
         else
-            share[c] = received_share(min(medium.scattering[c] * p, orders_depth_limit),
-                                      min(medium.absorption[c] * p, orders_depth_limit), medium.asymmetry, cosine);
+            share[c] = share_by_method(settings, table, min(medium.scattering[c] * p, orders_depth_limit),
+                                       min(medium.absorption[c] * p, orders_depth_limit), medium.asymmetry, cosine);
     }
     return share;
 }
@@ -158,24 +189,37 @@ PURE Material material_of(int parts, vec3 albedo, vec3 specular, float roughness
     return Material(true, of_all, of_gloss, tint, glossy ? phong_exponent(roughness) : R(1.0));
 }
 
-// What a lamp's part of the picture becomes: `own`, and what the medium brings to where it is not. Diffuse light that came straight keeps
-// to its way and the rest comes from aside, so that shadows and sides turned away get theirs. A highlight keeps e^-tau; what has
-// been scattered makes one as wide as it comes: the mean cosines of the lobe and of the light multiply.
-PURE vec3 lit_by_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) light, IN(Material) material, sampler2D gaussians,
-                      int gaussian_count, vec3 own)
+// How a surface's glossy part reflects toward the camera.
+struct Shine {
+    vec3 mirrored;  // the lobe's axis
+    vec3 gloss;
+};
+
+PURE Shine shine_of(IN(Surface) surface, IN(Material) material)
 {
-    if (!material.known || light.type == light_directional || surface.normal == vec3(R(0.0)))
-        return own * received_of_light(medium, surface, light, gaussians, gaussian_count);
-    float p = density_to_lamp(medium, surface, light, gaussians, gaussian_count);
-    vec3 from = surface.point - light.position;
-    float distance = max(length(from), smallest_light);
-    vec3 to_lamp = -from / distance;
     vec3 view = surface.point / max(length(surface.point), R(1e-20));
     float grazing = clamp(R(1.0) + dot(view, surface.normal), R(0.0), R(1.0));
     float twice = grazing * grazing;
-    vec3 gloss = material.specular * (material.tint ? R(0.04) + R(0.96) * twice * twice * grazing : R(1.0));
-    vec3 mirrored = view - R(2.0) * dot(view, surface.normal) * surface.normal;
-    float mirror_cosine = dot(mirrored, to_lamp);
+    return Shine(view - R(2.0) * dot(view, surface.normal) * surface.normal,
+                 material.specular * (material.tint ? R(0.04) + R(0.96) * twice * twice * grazing : R(1.0)));
+}
+
+// What a lamp's part of the picture becomes: `own`, and what the medium brings to where it is not. Diffuse light that came straight keeps
+// to its way and the rest comes from aside, so that shadows and sides turned away get theirs. A highlight keeps e^-tau; what has
+// been scattered makes one as wide as it comes: the mean cosines of the lobe and of the light multiply. Published methods dim all that
+// came straight by e^-tau.
+PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light, IN(Material) material,
+                      sampler2D gaussians, sampler2D table, vec3 own)
+{
+    if (!material.known || light.type == light_directional || surface.normal == vec3(R(0.0)))
+        return own * received_of_light(medium, settings, surface, light, gaussians, table);
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
+    vec3 from = surface.point - light.position;
+    float distance = max(length(from), smallest_light);
+    vec3 to_lamp = -from / distance;
+    Shine shine = shine_of(surface, material);
+    vec3 gloss = shine.gloss;
+    float mirror_cosine = dot(shine.mirrored, to_lamp);
     float cosine = cosine_to(surface, light);
     float strength = min(fluence(distance, light.radius), radiance_limit);
     // What leaves a spot's cone is not followed.
@@ -193,14 +237,23 @@ PURE vec3 lit_by_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) light, I
         if (c == 0 || medium.scattering[c] != medium.scattering[c - 1] || medium.absorption[c] != medium.absorption[c - 1]) {
             float scattering = min(medium.scattering[c] * p, orders_depth_limit);
             float absorption = min(medium.absorption[c] * p, orders_depth_limit);
-            Received r = received(scattering, absorption, medium.asymmetry, cosine);
-            Rescattered again = rescattered(scattering, absorption, medium.asymmetry);
-            along = r.along;
             kept = exp(-(scattering + absorption));
-            // From behind less comes: the first moments of light of this mean cosine.
-            aside = exp(R(2.0) * again.cosine * min(cosine, R(0.0))) * r.aside;
-            float width = again.cosine * (n + R(1.0)) / (n + R(2.0));
-            mirrored_aside = again.fluence * henyey_greenstein(width, mirror_cosine);
+            if (settings.method == method_calibrated) {
+                Received r = received(scattering, absorption, medium.asymmetry, cosine);
+                Rescattered again = rescattered(scattering, absorption, medium.asymmetry);
+                along = r.along;
+                // From behind less comes: the first moments of light of this mean cosine.
+                aside = exp(R(2.0) * again.cosine * min(cosine, R(0.0))) * r.aside;
+                float width = again.cosine * (n + R(1.0)) / (n + R(2.0));
+                mirrored_aside = again.fluence * henyey_greenstein(width, mirror_cosine);
+            } else {
+                Received r = published(settings.method, table, scattering, absorption, cosine);
+                along = r.along;
+                aside = r.aside;
+                if (gloss != vec3(R(0.0)))
+                    mirrored_aside = scattering / max(scattering + absorption, R(1e-30)) *
+                                     published_lobe(settings.method, table, scattering + absorption, n, mirror_cosine);
+            }
         }
         float intensity = min(strength * light.intensity[c], radiance_limit);
         float highlight = min(gloss[c] * lobe * intensity, max(own[c], R(0.0)));
@@ -228,24 +281,46 @@ PURE vec3 environment_irradiance(sampler2D environment, int order, vec3 normal)
     return max(sum, vec3(R(0.0)));
 }
 
-struct SurfaceSettings {
-    int light_count;
-    int gaussian_count;
-    int environment_order;
-    int world_normals;
-    int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
-};
-
 // normal: of the layer, or of normal_by_depth().
 PURE Surface surface_of(IN(Camera) camera, IN(SurfaceSettings) settings, vec2 pixel, float raw, vec3 normal)
 {
     return surface_at(pixel_ray(camera, pixel, raw), settings.world_normals != 0 ? in_camera(camera, normal) : normal);
 }
 
-#define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D gaussians, sampler2D environment
-#define SURFACE_PASSED lights, ungrouped, gaussians, environment
+#define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D gaussians, sampler2D environment, sampler2D table
+#define SURFACE_PASSED lights, ungrouped, gaussians, environment, table
 
-// What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's, which stays.
+// The environment's part of the picture after, by method psf: eq. 27 with a lobe of Phong for the rest of what reflects. Without a
+// normal or an end of the medium it stays as it is.
+PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
+                             IN(Material) material, vec3 own)
+{
+    float p = mean_density_around(medium, camera, table, gaussians, settings.gaussian_count, surface.point);
+    if (p < R(0.0) || surface.normal == vec3(R(0.0)))
+        return own;
+    vec3 normal = in_world(camera, surface.normal);
+    Degrees around_normal = environment_degrees(environment, settings.environment_order, normal);
+    Shine shine = shine_of(surface, material);
+    Degrees mirrored = environment_degrees(environment, settings.environment_order, in_world(camera, shine.mirrored));
+    vec3 clear = environment_irradiance(environment, settings.environment_order, normal);
+    vec3 depth = min(optical_depth(medium, p), vec3(density_limit));
+    vec3 extinction = medium.scattering + medium.absorption;
+    vec3 sum = vec3(R(0.0));
+    for (int c = 0; c < 3; ++c) {
+        float diffuse = psf_lobe_of_environment(table, around_normal, settings.environment_order, c, depth[c], R(1.0));
+        float brought = min(pi * diffuse / max(clear[c], R(1e-30)), radiance_limit) * own[c];
+        if (material.known)
+            brought = material.albedo[c] * diffuse +
+                      shine.gloss[c] * psf_lobe_of_environment(table, mirrored, settings.environment_order, c, depth[c],
+                                                               material.exponent);
+        float once = medium.scattering[c] / max(extinction[c], R(1e-30));
+        sum[c] = min(own[c] * exp(-depth[c]) + once * brought, radiance_limit);
+    }
+    return sum;
+}
+
+// What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's, which stays but for
+// method psf.
 // ungrouped: of each light, 1 where it has a part in that.
 PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
                         IN(Material) material, vec3 rest)
@@ -254,16 +329,22 @@ PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings
     for (int l = 0; l < settings.light_count; ++l)
         if (data_texel(ungrouped, l).x != R(0.0))
             all = min(all + clear_irradiance(surface, light_at(lights, l)), vec3(radiance_limit));
+    vec3 sky = vec3(R(0.0));
     if (settings.environment_order > 0)
-        all += environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
+        sky = environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
+    all += sky;
     vec3 change = vec3(R(0.0));
+    if (settings.method == method_psf && settings.environment_order > 0) {
+        vec3 own = rest * (sky / max(all, vec3(R(1e-30))));
+        change = lit_by_environment(medium, camera, settings, SURFACE_PASSED, surface, material, own) - own;
+    }
     for (int l = 0; l < settings.light_count; ++l) {
         if (data_texel(ungrouped, l).x == R(0.0))
             continue;
         Light light = light_at(lights, l);
         vec3 own = rest * (clear_irradiance(surface, light) / max(all, vec3(R(1e-30))));
         if (own != vec3(R(0.0)) || material.known)
-            change += lit_by_lamp(medium, surface, light, material, gaussians, settings.gaussian_count, own) - own;
+            change += lit_by_lamp(medium, settings, surface, light, material, gaussians, table, own) - own;
     }
     return max(rest + change, min(rest, vec3(R(0.0))));
 }
@@ -276,12 +357,12 @@ struct Divided {
 
 // group: the lamp's own layer of the picture.
 PURE Divided divided_by_group(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
-                              IN(Material) material, sampler2D gaussians, IN(Divided) pixel, vec3 group)
+                              IN(Material) material, sampler2D gaussians, sampler2D table, IN(Divided) pixel, vec3 group)
 {
     vec3 own = finite_or_zero(group);
     vec3 becomes = own;
     if (surface.seen)
-        becomes = lit_by_lamp(medium, surface, light, material, gaussians, settings.gaussian_count, own);
+        becomes = lit_by_lamp(medium, settings, surface, light, material, gaussians, table, own);
     return Divided(pixel.rest - own, min(pixel.lit + becomes, vec3(radiance_limit)));
 }
 

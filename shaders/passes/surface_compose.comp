@@ -14,6 +14,7 @@
 #include "shadow.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
+#include "environment.glsl"
 #include "surface.glsl"
 
 uniform Medium brume_medium;
@@ -30,6 +31,7 @@ uniform sampler2D lights;
 uniform sampler2D ungrouped;
 uniform sampler2D gaussians;
 uniform sampler2D environment;
+uniform sampler2D table;
 uniform sampler2D albedo;
 uniform sampler2D specular;
 uniform sampler2D roughness;

@@ -14,6 +14,7 @@
 #include "shadow.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
+#include "environment.glsl"
 #include "surface.glsl"
 
 uniform Medium brume_medium;
@@ -28,6 +29,7 @@ uniform sampler2D depth;
 uniform sampler2D normals;
 uniform sampler2D lights;
 uniform sampler2D gaussians;
+uniform sampler2D table;
 uniform sampler2D albedo;
 uniform sampler2D specular;
 uniform sampler2D roughness;
@@ -45,7 +47,7 @@ void main()
     Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided before = Divided(texelFetch(rest, p, 0).rgb, first != 0 ? vec3(0.0) : texelFetch(lit, p, 0).rgb);
     Divided after = divided_by_group(brume_medium, settings, surface, light_at(lights, light),
-                                     MATERIAL_AT(p), gaussians, before,
+                                     MATERIAL_AT(p), gaussians, table, before,
                                      texelFetch(group, p, 0).rgb);
     imageStore(rest_out, p, vec4(after.rest, 1.0));
     imageStore(lit_out, p, vec4(after.lit, 1.0));

@@ -14,6 +14,7 @@
 #include "shadow.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
+#include "environment.glsl"
 #include "surface.glsl"
 
 uniform Camera brume_camera;

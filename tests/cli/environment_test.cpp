@@ -9,6 +9,8 @@
 
 #include "environment/harmonics.hpp"
 #include "files.hpp"
+#include "image/frame.hpp"
+#include "image/library.hpp"
 
 namespace brume::tests {
 namespace {
@@ -138,6 +140,20 @@ TEST_F(Environment, AnImageBesideTheSceneIsProjected)
     const Result from_text = plan(R"({"sh": [[1,1,1]]})");
     ASSERT_EQ(from_text.status, 0) << from_text.err;
     EXPECT_EQ(json::parse(from_text.out)["environment"], 1);
+}
+
+TEST_F(Environment, AnImageMayBeOfAnyFormat)
+{
+    write_exr(sky_, {{rgb("", Imf::FLOAT)}});
+    const tool::ImageFile file(sky_);
+    const tool::Frame frame = tool::read_frame(file, tool::resolve_color(file, {}), nullptr);
+    const tool::Raster raster{frame.width, frame.height, {"R", "G", "B"}, tool::SampleType::kFloat, frame.pixels.data()};
+    for (const char *name : {"sky.hdr", "sky.tif"}) {
+        tool::image_library().write(folder_ / name, name, std::string(name) == "sky.hdr" ? "hdr" : "tiff", raster);
+        const Result r = plan(R"({"file": ")" + std::string(name) + R"("})");
+        EXPECT_EQ(r.status, 0) << r.err;
+        EXPECT_EQ(json::parse(r.out)["environment"], 36) << name;
+    }
 }
 
 TEST_F(Environment, AnImageThatCannotBeReadIsAWrongRequest)

@@ -1,6 +1,12 @@
+#include <cmath>
+#include <thread>
+
+#include <ImfStandardAttributes.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/capability.h>
 #include <nlohmann/json.hpp>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,6 +51,40 @@ TEST_F(Names, FoldersAreTakenAsTheyAre)
     const Result r = run(folder_ / "a.%V.####.exr", (folder_ / "o.####.exr").string());
     EXPECT_EQ(r.status, 2);
     EXPECT_NE(r.err.find("%V stands for a view's name"), std::string::npos) << r.err;
+}
+
+TEST_F(Names, AViewsNameIsPutWhereItBelongs)
+{
+    write_text(scene_, R"({"brume":1,"medium":{"scattering":0,"absorption":0.1}})");
+    for (const auto &[view, z] : {std::pair{"left", 3.0}, std::pair{"right", 5.0}}) {
+        fs::create_directory(folder_ / view);
+        write_exr(folder_ / view / (std::string("p.") + view + ".0001.exr"), {{rgb("", Imf::FLOAT)}});
+        write_exr(folder_ / (std::string("z.") + view[0] + ".0001.exr"), {{{{"Z", Imf::FLOAT, constant(z)}}}});
+    }
+    const std::string in = (folder_ / "%V/p.%V.####.exr").string(), depth = (folder_ / "z.%v.####.exr").string() + ":Z";
+    for (const auto &[view, z] : {std::pair{"left", 3.0}, std::pair{"right", 5.0}}) {
+        const Result r =
+            run(in, (folder_ / "out/%V.####.exr").string(), {"--view", view, "--depth", depth, "--depth-kind", "ray"});
+        ASSERT_EQ(r.status, 0) << r.err;
+        EXPECT_NEAR(read_plane(folder_ / "out" / (std::string(view) + ".0001.exr"), "R")[0], 0.25 * std::exp(-0.1 * z),
+                    1e-4);
+        EXPECT_EQ(brume({"info", in, "--view", view, "--depth", depth}).status, 0);
+        EXPECT_EQ(brume({"plan", scene_.string(), in, "--view", view, "--depth", depth, "--vfov", "50"}).status, 0);
+    }
+    const Result r = run(in, (folder_ / "o.####.exr").string(), {"--depth", depth});
+    EXPECT_EQ(r.status, 2);
+    EXPECT_NE(r.err.find("expected --view"), std::string::npos) << r.err;
+    // Of a file with both views the name of the output says which.
+    TestPart both{rgbz()};
+    for (auto &c : rgb("left."))
+        both.channels.push_back(c);
+    both.edit = [](Imf::Header &h) { Imf::addMultiView(h, {"right", "left"}); };
+    write_exr(in_, {both});
+    ASSERT_EQ(run(in_, (folder_ / "both.%V.exr").string(), {"--view", "left", "--depth", "Z"}).status, 0);
+    EXPECT_EQ(read_plane(folder_ / "both.left.exr", "R"), read_plane(in_, "R"));
+    EXPECT_NE(read_plane(folder_ / "both.left.exr", "left.R"), read_plane(in_, "left.R"));
+    write_exr(folder_ / "100%Vol.exr", {{rgbz()}});
+    EXPECT_EQ(run(folder_ / "100%Vol.exr", (folder_ / "o.exr").string()).status, 0);
 }
 
 TEST_F(Names, NamesMayBeAsLongAsTheyCanBe)
@@ -96,6 +136,44 @@ TEST_F(Names, LoopsOfLinksAreAWrongRequestInWords)
     }
 }
 
+TEST_F(Names, FoldersWithoutPermissionAreAWrongRequestInWords)
+{
+    const fs::path locked = folder_ / "locked", full = folder_ / "full", open = folder_ / "open";
+    for (const fs::path &folder : {locked, full, open})
+        fs::create_directory(folder);
+    fs::copy_file(in_, locked / "a.0001.exr");
+    fs::permissions(locked, fs::perms::none);
+    fs::permissions(full, fs::perms::owner_read | fs::perms::owner_exec);
+    const std::string out = (open / "o.exr").string(), sequence = (open / "o.####.exr").string();
+    const std::vector<std::vector<std::string>> wrong{
+        {(locked / "a.0001.exr").string(), out},
+        {(locked / "a.####.exr").string(), sequence},
+        {in_.string(), (full / "o.exr").string()},
+        {in_.string(), (full / "new/o.exr").string()},
+        {in_.string(), (locked / "o.exr").string()},
+        {in_.string(), out, "--depth", (locked / "a.0001.exr").string() + ":Z"},
+        {in_.string(), out, "--stats", (full / "s.json").string()},
+        {in_.string(), out, "--preview", (full / "p.png").string()}};
+    // Root may do everything unless what a thread starts loses the capabilities for that.
+    bool bound = ::geteuid() != 0;
+    std::thread([&] {
+        bound |= ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) == 0 && ::prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH) == 0;
+        for (std::vector<std::string> words : wrong) {
+            const Result r = run(words[0], words[1], {words.begin() + 2, words.end()});
+            if (!bound)
+                break;
+            EXPECT_EQ(r.status, 2) << words[0] << ' ' << words[1] << r.err;
+            EXPECT_NE(r.err.find("Permission denied"), std::string::npos) << r.err;
+            EXPECT_EQ(r.err.find("filesystem"), std::string::npos) << r.err;
+            EXPECT_FALSE(fs::exists(out));
+        }
+    }).join();
+    for (const fs::path &folder : {locked, full})
+        fs::permissions(folder, fs::perms::owner_all);
+    if (!bound)
+        GTEST_SKIP() << "root here keeps its capabilities";
+}
+
 TEST_F(Names, DevicesAndPipesAreLeftAlone)
 {
     const fs::path pipe = folder_ / "pipe", pipe_exr = folder_ / "pipe.exr";
@@ -118,6 +196,30 @@ TEST_F(Names, DevicesAndPipesAreLeftAlone)
     ::close(end);
     ASSERT_GT(bytes, 0);
     EXPECT_EQ(json::parse(heard.substr(0, std::size_t(bytes)))["totals"]["done"], 1);
+}
+
+TEST_F(Names, PipesAreNoPicturesAndNotWaitedFor)
+{
+    const std::string pipe = (folder_ / "pipe.exr").string(), out = (folder_ / "o.exr").string(), in = in_.string(),
+                      scene = scene_.string();
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    ASSERT_EQ(::mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+    for (const std::vector<std::string> &words :
+         std::vector<std::vector<std::string>>{{"run", scene, pipe, "-o", out, "--vfov", "50"},
+                                               {"run", scene, (folder_ / "pipe.png").string(), "-o", out, "--vfov", "50"},
+                                               {"run", scene, in, "-o", out, "--vfov", "50", "--depth", pipe + ":Z"},
+                                               {"run", scene, in, "-o", out, "--camera", pipe},
+                                               {"info", pipe},
+                                               {"compare", pipe, in},
+                                               {"compare", in, in, "--mask", pipe},
+                                               {"sheet", in, pipe, "-o", (folder_ / "s.png").string()}}) {
+        const Result r = brume(words, 20);
+        EXPECT_TRUE(r.status == 1 || r.status == 2) << words[0] << r.status << r.err;
+        EXPECT_NE((r.out + r.err).find("is a device or a pipe (expected a picture's file)"), std::string::npos)
+            << words[0] << r.out << r.err;
+    }
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_NE(run(folder_.path(), out).err.find("is a folder"), std::string::npos);
 }
 
 TEST_F(Names, LinksStayAndTheirTargetsAreRenewed)

@@ -140,7 +140,7 @@ TEST_F(PictureFaults, NamesDecideAndContentsDoNot)
     expect_failed("c.gif", "d.png", {"c.gif"});
 }
 
-TEST_F(PictureFaults, CmykAndTurnedPicturesAreRefused)
+TEST_F(PictureFaults, CmykAndOrientationsThatAreNoneAreRefused)
 {
     const std::vector<std::uint8_t> pixels(4 * kWidth * kHeight, 100);
     const Raster raster{kWidth, kHeight, {"R", "G", "B", "A"}, SampleType::kUint8, pixels.data()};
@@ -156,8 +156,14 @@ TEST_F(PictureFaults, CmykAndTurnedPicturesAreRefused)
     };
     write_text(folder_ / "cmyk.tif", patch(tiff, 262, 5));
     expect_failed("cmyk.tif", "d.png", {"cmyk.tif", "CMYK (expected RGB or grey)"});
-    write_text(folder_ / "turned.tif", patch(tiff, 274, 6));
-    expect_failed("turned.tif", "d.png", {"turned.tif", "orientation 6"});
+    const Raster rgb{kWidth, kHeight, {"R", "G", "B"}, SampleType::kUint8, pixels.data()};
+    image_library().write(folder_ / "turned.jpg", "turned.jpg", "jpeg", rgb);
+    const std::string jpeg = read_text(folder_ / "turned.jpg");
+    const std::string exif("\xff\xe1\0\x22"
+                           "Exif\0\0II*\0\x08\0\0\0\1\0\x12\1\3\0\1\0\0\0\x09\0\0\0\0\0\0\0",
+                           36);
+    write_text(folder_ / "turned.jpg", jpeg.substr(0, 2) + exif + jpeg.substr(2));
+    expect_failed("turned.jpg", "d.png", {"turned.jpg", "orientation 9 (expected 1 to 8)"});
 }
 
 TEST_F(PictureFaults, ADiskThatTakesNoMoreIsAnErrorAndLeavesNothing)

@@ -1,7 +1,10 @@
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <map>
 
 #include <gtest/gtest.h>
+#include <half.h>
 #include <unistd.h>
 
 #include "files.hpp"
@@ -24,15 +27,6 @@ double from_srgb(double v)
 double to_srgb(double v)
 {
     return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
-
-std::vector<float> floats(int channels, const std::function<double(int pixel, int channel)> &value)
-{
-    std::vector<float> out;
-    for (int i = 0; i < kCount; ++i)
-        for (int c = 0; c < channels; ++c)
-            out.push_back(float(value(i, c)));
-    return out;
 }
 
 class Pictures : public testing::Test {
@@ -205,6 +199,85 @@ TEST_F(Pictures, PaletteIsColour)
     EXPECT_EQ(out[3 * 10 + 1], 245);
 }
 
+TEST_F(Pictures, ColourComesFromEveryFormat)
+{
+    const auto make = [&](const std::string &name, const std::string &format, SampleType type, const void *pixels,
+                          std::vector<std::string> channels = {"R", "G", "B"}) {
+        Raster raster{kWidth, kHeight, std::move(channels), type, pixels};
+        image_library().write(folder_ / name, name, format, raster);
+    };
+    std::vector<std::uint16_t> rgb16;
+    std::vector<float> linear;
+    std::vector<half> halves;
+    std::vector<std::uint8_t> smooth;
+    for (int i = 0; i < kCount * 3; ++i) {
+        smooth.push_back(std::uint8_t(40 + i / 3 % kWidth * 5 + i % 3 * 10));
+        rgb16.push_back(std::uint16_t(smooth.back() * 257));
+        linear.push_back(float(from_srgb(smooth.back() / 255.0)));
+        halves.push_back(half(linear.back()));
+    }
+    make("a.jpg", "jpeg", SampleType::kUint8, smooth.data());
+    make("a8.tif", "tiff", SampleType::kUint8, smooth.data());
+    make("a16.tif", "tiff", SampleType::kUint16, rgb16.data());
+    make("a16.dpx", "dpx", SampleType::kUint16, rgb16.data());
+    make("a8.dpx", "dpx", SampleType::kUint8, smooth.data());
+    make("half.tif", "tiff", SampleType::kHalf, halves.data());
+    make("float.tif", "tiff", SampleType::kFloat, linear.data());
+    make("a.hdr", "hdr", SampleType::kFloat, linear.data());
+    write_png(folder_ / "a.png", 3, smooth);
+    for (const char *name : {"a.jpg", "a8.tif", "a16.tif", "a16.dpx", "a8.dpx", "half.tif", "float.tif", "a.hdr", "a.png"}) {
+        colour_ = folder_ / name;
+        const bool integers = std::isdigit(name[1]) != 0;
+        const Result r =
+            run("o.npy", integers ? std::vector<std::string>{"--input-space", "sRGB"} : std::vector<std::string>{});
+        ASSERT_EQ(r.status, 0) << name << r.err;
+        const ImageFile file(folder_ / "o.npy");
+        const Frame frame = read_frame(file, resolve_color(file, {}), nullptr);
+        const double tolerance = std::string(name) == "a.jpg" ? 0.03 : 0.006;
+        for (int i = 0; i < kCount * 3; ++i)
+            ASSERT_NEAR(frame.pixels[std::size_t(i)], double(linear[std::size_t(i)]) * transmittance(i / 3), tolerance)
+                << name << i;
+    }
+}
+
+TEST_F(Pictures, GreyIsOneChannelInEveryFormat)
+{
+    const std::vector<std::uint8_t> grey(kCount, 100);
+    const Raster raster{kWidth, kHeight, {"Y"}, SampleType::kUint8, grey.data()};
+    for (const auto &[name, format] : std::vector<std::pair<std::string, std::string>>{
+             {"g.png", "png"}, {"g.jpg", "jpeg"}, {"g.tif", "tiff"}, {"g.dpx", "dpx"}}) {
+        image_library().write(folder_ / name, name, format, raster);
+        colour_ = folder_ / name;
+        const Result r = run("out_" + name, {"--input-space", "sRGB"});
+        ASSERT_EQ(r.status, 0) << name << r.err;
+        EXPECT_EQ(ImageFile(folder_ / ("out_" + name)).part(0).channels.size(), 1u) << name;
+    }
+}
+
+TEST_F(Pictures, OfSeveralPicturesInAFileItIsSaidThatOneIsRead)
+{
+    // A second directory of a TIFF: the first one's offset is put where the end of the list is marked.
+    std::vector<std::uint8_t> pixels(3 * kCount, 100);
+    const Raster raster{kWidth, kHeight, {"R", "G", "B"}, SampleType::kUint8, pixels.data()};
+    image_library().write(folder_ / "m.tif", "m.tif", "tiff", raster);
+    std::string tiff = read_text(folder_ / "m.tif");
+    std::uint32_t first = 0;
+    std::memcpy(&first, tiff.data() + 4, 4);
+    std::uint16_t entries = 0;
+    std::memcpy(&entries, tiff.data() + first, 2);
+    const std::string directory = tiff.substr(first, 2 + 12 * std::size_t(entries)) + std::string(4, '\0');
+    tiff.append(tiff.size() % 2, '\0');
+    const auto second = std::uint32_t(tiff.size());
+    std::memcpy(tiff.data() + first + 2 + 12 * std::size_t(entries), &second, 4);
+    write_text(folder_ / "m.tif", tiff + directory);
+    colour_ = folder_ / "m.tif";
+    const Result r = run("o.tif", {"--input-space", "sRGB"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_NE(r.err.find("m.tif: has several pictures: the first is read"), std::string::npos) << r.err;
+    EXPECT_NE(brume({"info", (folder_ / "m.tif").string()}).out.find("has several pictures"), std::string::npos);
+    EXPECT_EQ(run("again.png", {"--input-space", "sRGB"}).status, 0);
+}
+
 TEST_F(Pictures, DepthComesFromPfmAndNpyInAnyOrder)
 {
     ASSERT_EQ(run("o.png").status, 0);
@@ -236,6 +309,11 @@ TEST_F(Pictures, DepthComesFromPfmAndNpyInAnyOrder)
     expect_as_png("b.npy");
     expect_as_png("f.npy");
     expect_as_png("u.npy", {"--depth-scale", "0.01"});
+    image_library().write(folder_ / "u.tif", "u.tif", "tiff",
+                          {kWidth, kHeight, {"Y"}, SampleType::kUint16, depth16_.data()});
+    expect_as_png("u.tif", {"--depth-scale", "0.01"});
+    image_library().write(folder_ / "f.tif", "f.tif", "tiff", {kWidth, kHeight, {"Y"}, SampleType::kFloat, metres.data()});
+    expect_as_png("f.tif");
     write_exr(folder_ / "z.exr", {{{{"Y", Imf::FLOAT, [&](int x, int y) { return metres[std::size_t(y * kWidth + x)]; }}}}});
     expect_as_png("z.exr");
     expect_as_png("z.exr:Y");

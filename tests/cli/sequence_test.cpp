@@ -9,12 +9,14 @@
 #include <sys/wait.h>
 
 #include "files.hpp"
+#include "image/frame.hpp"
 
 extern char **environ;
 
 namespace brume::tests {
 namespace {
 
+using namespace brume::tool;
 using nlohmann::json;
 
 class Sequence : public testing::Test {
@@ -186,10 +188,49 @@ TEST_F(Sequence, PreviewsShowEveryFrameOrTheFirst)
         EXPECT_EQ(read_text(folder_ / name).substr(1, 3), "PNG");
     ASSERT_EQ(run({"--preview", (folder_ / "first.png").string()}).status, 0);
     EXPECT_TRUE(read_text(folder_ / "first.png") == read_text(folder_ / "p.01.png"));
-    const Result sheet = brume({"sheet", (folder_ / "in.%04d.exr").string(), (folder_ / "out/o.####.exr").string(), "-o",
-                                (folder_ / "sheet.png").string()});
-    EXPECT_EQ(sheet.status, 0) << sheet.err;
-    EXPECT_EQ(read_text(folder_ / "sheet.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Sequence, SheetsHoldEachFrameAboveItsFoggedOne)
+{
+    // A lamp of one pixel in the dark, and a pixel that is not finite.
+    const auto lamp = [](int x, int y) { return x == 10 && y == 4 ? 512.0 : x == 3 && y == 3 ? NAN : 0.0; };
+    const auto grey = [](int, int) { return 0.18; };
+    for (int i = 1; i <= 3; ++i) {
+        const auto name = [&](const char *kind) { return folder_ / (std::string(kind) + std::to_string(i) + ".exr"); };
+        write_exr(name("lamp"), {{{{"R", Imf::FLOAT, lamp}, {"G", Imf::FLOAT, lamp}, {"B", Imf::FLOAT, lamp}}}});
+        write_exr(name("grey"), {{{{"R", Imf::FLOAT, grey}, {"G", Imf::FLOAT, grey}, {"B", Imf::FLOAT, grey}}}});
+    }
+    const auto sheet = [&](const std::string &before, const std::string &after) {
+        const Result r = brume({"sheet", (folder_ / before).string(), (folder_ / after).string(), "-o",
+                                (folder_ / "sheet.png").string(), "--columns", "2", "--cell-width", "16"});
+        EXPECT_EQ(r.status, 0) << r.err;
+        const ImageFile file(folder_ / "sheet.png");
+        return read_frame(file, resolve_color(file, {}), nullptr);
+    };
+    const Frame numbered = sheet("lamp%d.exr", "grey%d.exr");
+    // Cells of 16 x 12 with 8 pixels around them, and a line of text below.
+    ASSERT_EQ(numbered.width, 2 * (16 + 8) + 8);
+    ASSERT_EQ(numbered.height, 2 * (12 + 8) + 8 + 22);
+    const auto at = [](const Frame &f, int x, int y) { return f.pixels[3 * std::size_t(y * f.width + x)] * 255; };
+    for (const int left : {8, 32}) {
+        EXPECT_NEAR(at(numbered, left + 5, 8 + 2), 255, 1) << "the lamp is the mean of four pixels";
+        EXPECT_LT(at(numbered, left + 1, 8 + 1), 10) << "what is not finite counts as its neighbours";
+        EXPECT_LT(at(numbered, left + 9, 8 + 9), 10);
+        const float shown = at(numbered, left + 1, 28 + 1);
+        EXPECT_GT(shown, 60);
+        EXPECT_EQ(at(numbered, left + 14, 28 + 10), shown);
+    }
+    EXPECT_NEAR(at(numbered, 2, 2), 24, 1);
+    float brightest = 0;
+    for (int y = 48; y < numbered.height; ++y)
+        for (int x = 0; x < numbered.width; ++x)
+            brightest = std::max(brightest, at(numbered, x, y));
+    if (fs::exists("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf")) {
+        EXPECT_GT(brightest, 100) << "there is no number";
+    }
+    const Frame alone = sheet("lamp1.exr", "grey1.exr");
+    EXPECT_EQ(alone.width, 16 + 16);
+    EXPECT_EQ(alone.height, 2 * (12 + 8) + 8);
 }
 
 }  // namespace

@@ -222,6 +222,7 @@ struct Lit {
     f64::Medium medium{};
     f64::Surface surface{true, f64::vec3(0, 0, -5), f64::vec3(0, 0, 1)};
     f64::Light lamp{};
+    f64::SurfaceSettings settings{};
     f64::Material material{true, f64::vec3(0.6, 0.3, 0.1), f64::vec3(0), false, 1};
 
     Lit(double scattering, double g, const f64::vec3 &at)
@@ -234,7 +235,10 @@ struct Lit {
         lamp.intensity = f64::vec3(10);
     }
     f64::vec3 diffuse() const { return material.albedo / f64::pi * f64::clear_irradiance(surface, lamp); }
-    f64::vec3 becomes(const f64::vec3 &own) const { return f64::lit_by_lamp(medium, surface, lamp, material, {}, 0, own); }
+    f64::vec3 becomes(const f64::vec3 &own) const
+    {
+        return f64::lit_by_lamp(medium, settings, surface, lamp, material, {}, {}, own);
+    }
 };
 
 }  // namespace
@@ -384,6 +388,12 @@ TEST(Surface, LampsThatLightWhatIsSeen)
             material[name] = read_exr(clear, {std::string(name) + ".R", std::string(name) + ".G", std::string(name) + ".B"});
         material["roughness"] = read_exr(clear, {"roughness.Y"});
         const double all = error("light groups, normals, materials", relit(cpu(), scene, color, depth, material, groups));
+        for (const char *method : {"sun", "psf"}) {
+            scene["effects"]["surface"]["method"] = method;
+            const std::string what = std::string("the same by method ") + method;
+            EXPECT_GT(error(what.c_str(), relit(cpu(), scene, color, depth, material, groups)), all)
+                << medium << ": scattered once is not enough";
+        }
         scene.erase("effects");
         const double by_default = error("the same, no effects named", relit(cpu(), scene, color, depth, material, groups));
         const double ungrouped = error("no effects named, no layers", run(cpu(), scene.dump(), color, depth).output);

@@ -44,7 +44,9 @@ void add_calibrate(CLI::App &app, Action &chosen)
 {
     auto *command = app.add_subcommand("calibrate", "Measure what passes take on this device, for predictions and budgets");
     auto backend = std::make_shared<std::string>("auto"), file = std::make_shared<std::string>();
-    command->add_option("--backend", *backend, "auto (GL where a GPU is found), gl or cpu")->capture_default_str();
+    command->add_option("--backend", *backend, "auto (GL where a GPU is found), gl or cpu")
+        ->capture_default_str()
+        ->type_name("{auto,gl,cpu}");
     command->add_option("-o,--output", *file, "Where to keep it (default: the user's cache, where the other commands look)")
         ->type_name("FILE");
     command->callback([&chosen, backend, file] { chosen = [backend, file] { return calibrate(*backend, *file); }; });

@@ -153,6 +153,9 @@ void print_text(const ordered_json &info)
         for (const auto &note : info["frame_notes"])
             fmt::print("frames   {}\n", text(note));
     fmt::print("display  {}, pixel aspect {}\n", window_text(info["display_window"]), info["pixel_aspect"].get<double>());
+    if (info.contains("notes"))
+        for (const auto &note : info["notes"])
+            fmt::print("file     {}\n", text(note));
     for (const auto &part : info["parts"]) {
         std::string channels;
         for (const auto &c : part["channels"])
@@ -209,6 +212,8 @@ int info(const InfoOptions &options)
         info["frame_notes"] = notes;
     info["display_window"] = window_of(file.part(0).display_window);
     info["pixel_aspect"] = file.part(0).pixel_aspect;
+    if (!file.source().notes.empty())
+        info["notes"] = file.source().notes;
     info["parts"] = parts_of(file);
 
     std::optional<ColorChoice> color;
@@ -244,7 +249,10 @@ void add_info(CLI::App &app, Action &chosen)
     command->add_flag("--json", options->json, "Print JSON");
     options->picture.add_to(*command);
     add_input_option(*command, options->inputs);
-    command->callback([&chosen, options] { chosen = [options] { return info(*options); }; });
+    command->callback([&chosen, options] {
+        options->picture.name_view({&options->input});
+        chosen = [options] { return info(*options); };
+    });
 }
 
 }  // namespace brume::tool

@@ -1,6 +1,7 @@
 #include "commands/options.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <CLI/CLI.hpp>
@@ -88,7 +89,7 @@ void add_output_options(CLI::App &command, ColorRequest &spaces, std::string &ou
     command
         .add_option("--output-type", output_type,
                     "uint8, uint16, half or float, for outputs that are no rewritten EXR (default: what loses least)")
-        ->type_name("TYPE");
+        ->type_name("{uint8,uint16,half,float}");
 }
 
 void PictureOptions::add_to(CLI::App &command)
@@ -98,7 +99,8 @@ void PictureOptions::add_to(CLI::App &command)
                     "Layer that is the colour (default: root RGB, the default view, a sole RGB layer)")
         ->type_name("LAYER");
     command.add_option("--part", layers.part, "Part of a multi-part file, by name or index")->type_name("NAME");
-    command.add_option("--view", layers.view, "View of a stereo file")->type_name("NAME");
+    command.add_option("--view", layers.view, "View of a stereo file, or of files that have %V in their names")
+        ->type_name("NAME");
     command
         .add_option("--depth", layers.depth,
                     "Depth channel, exact name; FILE or FILE:CHANNEL for a file of its own, EXR, PNG, TIFF, PFM or NPY")
@@ -129,6 +131,30 @@ void PictureOptions::add_to(CLI::App &command)
                                                                                : "expected degrees, above 0 and below 180";
     });
     fov->excludes(camera);
+}
+
+void PictureOptions::name_view(std::initializer_list<std::string *> files)
+{
+    if (layers.view.empty())
+        return;
+    const std::string view = layers.view;
+    const auto put = [&](std::string &name) {
+        bool named = false;
+        // A file that is really called so is meant literally.
+        if (std::error_code none; std::filesystem::exists(name, none))
+            return named;
+        for (const auto &[mark, text] : {std::pair{"%V", view}, std::pair{"%v", view.substr(0, 1)}})
+            for (std::size_t at = 0; (at = name.find(mark, at)) != name.npos; at += text.size()) {
+                name.replace(at, 2, text);
+                named = true;
+            }
+        return named;
+    };
+    for (std::string *name : files)
+        if (put(*name) && name == *files.begin())
+            layers.view.clear();
+    put(layers.depth);
+    put(camera_file);
 }
 
 std::string PictureOptions::depth_file() const

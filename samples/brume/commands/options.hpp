@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct PictureOptions {
     double vertical_fov = 0;  ///< [degrees]; 0: not given
 
     void add_to(CLI::App &command);
+
+    /// Puts the view for %V, and its first letter for %v, into `files`, the first of which is the picture, and into the
+    /// names of depth and camera. A picture that is named by its view is that view, so that no more is asked of it.
+    void name_view(std::initializer_list<std::string *> files);
 
     DepthKind depth_kind() const
     {

@@ -127,7 +127,10 @@ void add_plan(CLI::App &app, Action &chosen)
     options->fog.add_to(*command);
     command->add_option("INPUT", options->input, "EXR file, or a pattern: its first frame is planned for")->required();
     command->add_flag("--json", options->json, "Print JSON");
-    command->callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
+    command->callback([&chosen, options] {
+        options->fog.picture.name_view({&options->input});
+        chosen = [options] { return plan(*options); };
+    });
 }
 
 }  // namespace brume::tool

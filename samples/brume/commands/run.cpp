@@ -40,6 +40,7 @@ void add_run(CLI::App &app, Action &chosen)
                       "Leave out the attribute brume:provenance, which names version, backend and scene");
     command->add_flag("--quiet", options->quiet, "Say nothing but warnings and errors");
     command->callback([&chosen, options] {
+        options->fog.picture.name_view({&options->input, &options->output, &options->preview, &options->stats});
         options->spaces.display = !options->preview.empty();
         chosen = [options] { return run_sequence(*options); };
     });

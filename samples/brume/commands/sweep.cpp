@@ -33,7 +33,10 @@ void add_sweep(CLI::App &app, Action &chosen)
             ".npy")
         ->type_name("OUTPUT");
     add_output_options(*command, options->spaces, options->output_type);
-    command->callback([&chosen, options] { chosen = [options] { return run_sweep(*options); }; });
+    command->callback([&chosen, options] {
+        options->fog.picture.name_view({&options->input, &options->output, &options->transmittance});
+        chosen = [options] { return run_sweep(*options); };
+    });
 }
 
 }  // namespace brume::tool

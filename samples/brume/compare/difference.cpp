@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "colour/png.hpp"
 #include "exr/new_file.hpp"
+#include "image/write.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -35,6 +35,8 @@ void check_difference_name(const std::string &path)
 {
     if (!path.ends_with(".exr") && !path.ends_with(".png"))
         throw RequestError(fmt::format("--difference '{}': expected a name ending in .png or .exr", path));
+    if (path.ends_with(".png"))
+        image_library();
 }
 
 void write_difference(const std::string &path, const Picture &a, const Picture &b, double largest)
@@ -42,13 +44,13 @@ void write_difference(const std::string &path, const Picture &a, const Picture &
     const auto difference = absolute_difference(a, b);
     if (path.ends_with(".exr"))
         return write_exr(path, a, difference);
-    std::vector<std::uint8_t> rgb(difference.size());
-    std::transform(difference.begin(), difference.end(), rgb.begin(), [&](float d) {
+    Display shown{a.width, a.height, std::vector<std::uint8_t>(difference.size())};
+    std::transform(difference.begin(), difference.end(), shown.rgb.begin(), [&](float d) {
         if (!std::isfinite(d))
             return std::uint8_t(255);
         return std::uint8_t(std::lround(255 * std::sqrt(largest > 0 ? std::min(1.0, d / largest) : 0.0)));
     });
-    write_png(path, a.width, a.height, rgb);
+    write_display(shown, path);
 }
 
 }  // namespace brume::tool

@@ -17,6 +17,7 @@
 #include <half.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "exr/metadata.hpp"
 #include "exr/planes.hpp"
 #include "support/error.hpp"
 #include "support/text.hpp"
@@ -216,6 +217,11 @@ std::unique_ptr<StoredPixels> ExrSource::read(int index, const std::vector<std::
         input.readPixels(part.data_window.min.y, part.data_window.max.y);
     });
     return pixels;
+}
+
+Metadata ExrSource::metadata(int part) const
+{
+    return metadata_of(header(part));
 }
 
 void ExrSource::rethrow(const std::string &doing, const std::exception &e) const

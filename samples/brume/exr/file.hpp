@@ -49,6 +49,8 @@ public:
 
     std::unique_ptr<StoredPixels> read(int part, const std::vector<std::string> &channels) const override;
 
+    Metadata metadata(int part) const override;
+
     const Imf::Header &header(int part) const { return file_->header(part); }
     Imf::MultiPartInputFile &imf() const { return *file_; }
 

@@ -112,11 +112,31 @@ void compare_headers(const Imf::Header &a, const Imf::Header &b, const std::stri
 
 std::string provenance_of(const ImageFile &file)
 {
-    const ExrSource *exr = exr_of(file);
-    for (std::size_t part = 0; exr && part < exr->parts.size(); ++part)
-        if (const auto *text = exr->header(int(part)).findTypedAttribute<Imf::StringAttribute>(kProvenance))
-            return fmt::format("\"{}\"", printable(text->value()));
+    for (const PartInfo &part : file.parts())
+        if (const std::string text = provenance_in(file.source().metadata(part.index)); !text.empty())
+            return fmt::format("\"{}\"", printable(text));
     return "";
+}
+
+/// Of pictures that are no OpenEXR files: they have one part.
+void compare_pictures(const ImageFile &a, const ImageFile &b, std::vector<std::string> &lines)
+{
+    const auto channels = [](const ImageFile &file) {
+        Texts texts;
+        for (const ChannelInfo &channel : file.part(0).channels)
+            texts[printable(channel.name)] = name_of(channel.type);
+        return texts;
+    };
+    const auto attributes = [](const ImageFile &file) {
+        Texts texts{{"PixelAspectRatio", fmt::format("{}", file.part(0).pixel_aspect)},
+                    {"Orientation", fmt::format("{}", file.source().orientation)}};
+        for (const Attribute &attribute : file.source().metadata(0))
+            texts[printable(attribute.name)] =
+                attribute.type == "string" ? fmt::format("\"{}\"", printable(attribute.text)) : attribute.text;
+        return texts;
+    };
+    compare_texts(channels(a), channels(b), "channel", lines);
+    compare_texts(attributes(a), attributes(b), "attribute", lines);
 }
 
 }  // namespace
@@ -125,8 +145,10 @@ std::vector<std::string> header_changes(const ImageFile &a, const ImageFile &b)
 {
     std::vector<std::string> lines;
     const ExrSource *exr_a = exr_of(a), *exr_b = exr_of(b);
-    if (!exr_a || !exr_b)
+    if (!exr_a || !exr_b) {
+        compare_pictures(a, b, lines);
         return lines;
+    }
     const std::size_t parts_a = exr_a->parts.size(), parts_b = exr_b->parts.size();
     if (parts_a != parts_b)
         lines.push_back(fmt::format("{} parts, was {}", parts_a, parts_b));

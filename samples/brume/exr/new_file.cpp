@@ -4,8 +4,8 @@
 #include <ImfFrameBuffer.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
-#include <ImfStringAttribute.h>
 
+#include "exr/metadata.hpp"
 #include "exr/output_stream.hpp"
 #include "exr/planes.hpp"
 
@@ -14,8 +14,7 @@ namespace brume::tool {
 std::uint64_t write_new_exr(const std::filesystem::path &output, const NewPicture &picture)
 {
     Imf::Header header(exr_window(picture.display), exr_window(picture.data), float(picture.pixel_aspect));
-    for (const auto &[name, text] : picture.texts)
-        header.insert(name, Imf::StringAttribute(text));
+    put_metadata(header, picture.metadata);
     if (const auto &c = picture.chromaticities)
         Imf::addChromaticities(header, exr_chromaticities(*c));
     const std::size_t count = std::size_t(picture.data.width()) * std::size_t(picture.data.height());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "image/metadata.hpp"
 #include "image/types.hpp"
 
 namespace brume::tool {
@@ -21,7 +22,7 @@ struct NewPicture {
     double pixel_aspect = 1;
     std::vector<NewChannel> channels = {};
     std::optional<Chromaticities> chromaticities = {};
-    std::vector<std::pair<std::string, std::string>> texts = {};  ///< string attributes
+    Metadata metadata = {};
 };
 
 /// An OpenEXR file that is made of no other; whole under its name or not at all. Returns how many values half cannot hold:

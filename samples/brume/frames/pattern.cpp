@@ -68,7 +68,8 @@ FilePattern::FilePattern(std::string text) : text_(std::move(text))
     for (const char *view : {"%V", "%v"})
         if (text_.find(view, name) != std::string::npos)
             throw RequestError(fmt::format(
-                "'{}': {} stands for a view's name (expected the name itself, and a run for each view)", text_, view));
+                "'{}': {} stands for a view's name (expected --view, which puts it there, and a run for each view)", text_,
+                view));
     if (const auto found = find_placeholder(text_.substr(name))) {
         before_ = text_.substr(0, name + found->at);
         after_ = text_.substr(name + found->at + found->length);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/limits.hpp"
+#include "image/metadata.hpp"
 #include "image/types.hpp"
 
 namespace brume::tool {
@@ -24,6 +25,7 @@ class PictureSource {
 public:
     virtual ~PictureSource() = default;
     virtual std::unique_ptr<StoredPixels> read(int part, const std::vector<std::string> &channels) const = 0;
+    virtual Metadata metadata(int /*part*/) const { return {}; }
 
     std::vector<PartInfo> parts;
     std::string default_view;
@@ -32,6 +34,9 @@ public:
     std::optional<std::string> color_space = "";
     std::string color_note = "the file does not say";  ///< why there is none
     bool straight_alpha = false;                       ///< colour is not multiplied by alpha
+    int orientation = 1;                               ///< that the file says, as EXIF counts them; pixels are given upright
+    int bits = 0;                                      ///< that the file uses of an integer's; 0: all
+    std::vector<std::string> notes = {};               ///< what a person should know of how it is read
 };
 
 /// A picture's file, whose headers have been read and found sane. Copies share it.

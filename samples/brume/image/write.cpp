@@ -39,6 +39,15 @@ Channels channels_of(const Frame &frame, bool with_alpha)
     return channels;
 }
 
+/// What the frame's file says of itself, where it still holds.
+Metadata carried_from(const Frame &frame, const WriteOptions &options, SampleType type)
+{
+    if (!options.metadata)
+        return {};
+    const bool alike = is_normalized(type) == is_normalized(frame.color.type_in(frame.file));
+    return carried(frame.file.source().metadata(frame.color.part), alike && !options.primaries_changed);
+}
+
 WriteReport write_new(const Frame &frame, const std::vector<AddedLayer> &layers, const std::filesystem::path &output,
                       SampleType type, const WriteOptions &options)
 {
@@ -52,8 +61,8 @@ WriteReport write_new(const Frame &frame, const std::vector<AddedLayer> &layers,
             picture.channels.push_back({fmt::format("brume.{}.{}", layer.name, layer.channels == 1 ? 'Y' : "RGB"[c]),
                                         layer.type, layer.pixels.data() + c, std::size_t(layer.channels)});
     picture.chromaticities = options.chromaticities;
-    if (!options.provenance.empty())
-        picture.texts.emplace_back(kProvenance, options.provenance);
+    picture.metadata = carried_from(frame, options, type);
+    put_provenance(picture.metadata, options.provenance, "openexr");
     WriteReport report;
     report.clamped = write_new_exr(output, picture);
     if (report.clamped > 0)
@@ -72,12 +81,17 @@ float threshold(std::uint32_t pixel, std::uint32_t channel)
 }
 
 /// Integers that are a share of the largest. With `dithered`, what lies between two becomes either by its distance, so that
-/// slopes stay slopes; what is an integer but for rounding stays it.
+/// slopes stay slopes; what is an integer but for rounding stays it. Of fewer bits than T has, each is repeated below.
 template <class T>
-void to_integers(const Frame &frame, const Channels &channels, bool dithered, std::vector<char> &bytes,
+void to_integers(const Frame &frame, const Channels &channels, bool dithered, int bits, std::vector<char> &bytes,
                  std::atomic<std::uint64_t> &clipped)
 {
-    constexpr float kLargest = float(std::numeric_limits<T>::max()), kExact = 1 / 64.0f;
+    constexpr int kBits = std::numeric_limits<T>::digits;
+    constexpr float kExact = 1 / 64.0f;
+    const float most = float((1u << bits) - 1);
+    const auto widened = [&](T value) {
+        return bits == kBits ? value : T(value << (kBits - bits) | value >> (2 * bits - kBits));
+    };
     const std::size_t n = channels.at.size(), width = std::size_t(frame.width);
     bytes.resize(width * std::size_t(frame.height) * n * sizeof(T));
     auto *out = reinterpret_cast<T *>(bytes.data());
@@ -85,8 +99,8 @@ void to_integers(const Frame &frame, const Channels &channels, bool dithered, st
         std::uint64_t beyond = 0;
         for (std::size_t i = y * width; i < (y + 1) * width; ++i)
             for (std::size_t c = 0; c < n; ++c) {
-                const float value = frame.pixels[i * std::size_t(frame.channels) + channels.at[c]] * kLargest;
-                if (!(value > -0.5f && value < kLargest + 0.5f)) {
+                const float value = frame.pixels[i * std::size_t(frame.channels) + channels.at[c]] * most;
+                if (!(value > -0.5f && value < most + 0.5f)) {
                     ++beyond;
                     out[i * n + c] = value > 0 ? std::numeric_limits<T>::max() : T(0);
                     continue;
@@ -94,7 +108,7 @@ void to_integers(const Frame &frame, const Channels &channels, bool dithered, st
                 const float nearest = std::round(value);
                 const bool exact = !dithered || channels.names[c] == "A" || std::abs(value - nearest) < kExact;
                 const float chosen = exact ? nearest : std::floor(value + threshold(std::uint32_t(i), std::uint32_t(c)));
-                out[i * n + c] = T(std::clamp(chosen, 0.0f, kLargest));
+                out[i * n + c] = widened(T(std::clamp(chosen, 0.0f, most)));
             }
         clipped += beyond;
     });
@@ -120,14 +134,17 @@ WriteReport write_raster(const Frame &frame, const std::filesystem::path &output
     raster.color_space = options.color_space;
     raster.straight_alpha = is_normalized(type);
     raster.pixel_aspect = frame.part().pixel_aspect;
+    // Film's ten bits stay ten.
+    if (std::string_view(format.name) == "dpx" && type == SampleType::kUint16 && options.type.empty())
+        raster.bits = frame.file.source().bits;
     std::vector<char> bytes;
     std::atomic<std::uint64_t> clipped{0};
     switch (type) {
     case SampleType::kUint8:
-        to_integers<std::uint8_t>(frame, channels, !options.untouched, bytes, clipped);
+        to_integers<std::uint8_t>(frame, channels, !options.untouched, 8, bytes, clipped);
         break;
     case SampleType::kUint16:
-        to_integers<std::uint16_t>(frame, channels, false, bytes, clipped);
+        to_integers<std::uint16_t>(frame, channels, false, raster.bits ? raster.bits : 16, bytes, clipped);
         break;
     case SampleType::kHalf:
         to_floats<half>(frame, channels, bytes);
@@ -147,11 +164,23 @@ WriteReport write_raster(const Frame &frame, const std::filesystem::path &output
     if (frame.part().data_window != frame.part().display_window)
         report.warnings.push_back(fmt::format("{} has no windows: the data window's {} x {} pixels are written", format.name,
                                               frame.width, frame.height));
+    const Metadata own = carried_from(frame, options, type);
+    raster.metadata = own;
+    put_provenance(raster.metadata, options.provenance, format.name);
     PendingFile pending(output);
-    if (is_array(format))
+    std::vector<std::string> lost;
+    if (is_array(format)) {
         write_array(pending.path(), output.string(), format, raster);
-    else
-        image_library().write(pending.path(), output.string(), format.name, raster);
+        for (const Attribute &attribute : own)
+            if (attribute.name != "YResolution" && attribute.name != "ResolutionUnit")
+                lost.push_back(attribute.name);
+    } else {
+        lost = image_library().write(pending.path(), output.string(), format.name, raster);
+    }
+    std::erase_if(lost, [&](const std::string &name) { return !find(own, name); });
+    if (!lost.empty())
+        report.warnings.push_back(
+            fmt::format("{} does not keep what the picture says of itself: {}", format.name, fmt::join(lost, ", ")));
     // The library has reported success with nothing on a full disk.
     if (std::error_code error; std::filesystem::file_size(pending.path(), error) == 0 || error)
         throw FrameError(fmt::format("{}: cannot be written: nothing arrived on the disk", output.string()));
@@ -160,6 +189,15 @@ WriteReport write_raster(const Frame &frame, const std::filesystem::path &output
 }
 
 }  // namespace
+
+void write_display(const Display &picture, const std::filesystem::path &output)
+{
+    Raster raster{picture.width, picture.height, {"R", "G", "B"}, SampleType::kUint8, picture.rgb.data()};
+    raster.color_space = "sRGB";
+    PendingFile pending(output);
+    image_library().write(pending.path(), output.string(), "png", raster);
+    pending.commit();
+}
 
 void write_layer(const Frame &frame, const AddedLayer &layer, const std::filesystem::path &output)
 {
@@ -174,6 +212,7 @@ void write_layer(const Frame &frame, const AddedLayer &layer, const std::filesys
                                                                : SampleType::kUint8;
     WriteOptions options;
     options.color_space = "Linear";
+    options.metadata = false;
     if (is_exr(*format))
         write_new(alone, {}, output, type, options);
     else

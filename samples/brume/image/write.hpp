@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/frame.hpp"
+#include "image/library.hpp"
 
 namespace brume::tool {
 
@@ -18,14 +19,12 @@ struct AddedLayer {
     std::vector<float> pixels;  ///< interleaved
 };
 
-/// Attribute of the part with the colour: what made it. One of an earlier run is replaced or goes.
-constexpr const char *kProvenance = "brume:provenance";
-
 struct WriteOptions {
     bool primaries_changed = false;  ///< the colour has been converted: what the header says of its space would be false
     std::optional<Chromaticities> chromaticities = {};  ///< of the new space, where they are known
     bool untouched = false;                             ///< the pixels are those that were read
     bool decoded = false;          ///< but for what a conversion there and back leaves, so that copying is not the same
+    bool metadata = true;          ///< what the picture's file says of itself is written too
     std::string provenance = {};   ///< empty: not written
     std::string type = {};         ///< of channels, for what is no rewritten OpenEXR file; empty: what loses least
     std::string color_space = {};  ///< that the pixels are in, where files can say it: "sRGB" or empty
@@ -35,6 +34,9 @@ struct WriteReport {
     std::uint64_t clamped = 0;  ///< values beyond half's 65504, written as 65504
     std::vector<std::string> warnings;
 };
+
+/// A PNG of what a screen shows. Written beside and renamed, as every output.
+void write_display(const Display &picture, const std::filesystem::path &output);
 
 /// A layer by itself, as it is: integers hold 0 to 1, in the most bits that the format has. One channel where all are alike.
 void write_layer(const Frame &frame, const AddedLayer &layer, const std::filesystem::path &output);

@@ -98,7 +98,9 @@ std::string missing_camera(std::uint32_t missing, const char *reason, const std:
 void FogOptions::add_scene_to(CLI::App &command)
 {
     command.add_option("SCENE", scene, "Scene file (JSON; `brume schema` prints its schema)")->required();
-    command.add_option("--backend", backend, "auto (GL where a GPU is found), gl or cpu")->capture_default_str();
+    command.add_option("--backend", backend, "auto (GL where a GPU is found), gl or cpu")
+        ->capture_default_str()
+        ->type_name("{auto,gl,cpu}");
     command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")
         ->type_name("EFFECT.PARAM=VALUE")
         ->allow_extra_args(false);

@@ -48,6 +48,8 @@ Frame PictureIo::read(const Fogger &fogger, LuminanceWeights &weights, FrameStat
             fmt::format("depth '{}' is stored with a lossy compression: edges may show it", open.depth.channel));
     if (depth_channel.type == SampleType::kUint8)
         warnings.push_back(fmt::format("depth '{}' has 8 bits: its steps show as bands", open.depth.channel));
+    const std::vector<std::string> &notes = open.file.source().notes;
+    warnings.insert(warnings.end(), notes.begin(), notes.end());
     for (const std::string &view : other_views(open.file, open.color))
         warnings.push_back(fmt::format("the picture's view '{}' stays without fog (--view {} fogs that one)", view, view));
     weights = colors_.luminance_weights(open.file.part(open.color.part), &warnings);

@@ -11,7 +11,6 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "colour/png.hpp"
 #include "image/library.hpp"
 #include "run/checks.hpp"
 #include "run/interrupt.hpp"
@@ -74,6 +73,10 @@ public:
                 progress_.note(note);
         for (const std::size_t i : to_do_)
             make_folder_of(run_.frames[i].files.output);
+        if (!options_.preview.empty())
+            make_folder_of(options_.preview);
+        if (!options_.stats.empty() && !is_stream(options_.stats))
+            make_folder_of(options_.stats);
         catch_interrupts();
         progress_ = Progress(to_do_.size(), options_.quiet);
         const auto start = std::chrono::steady_clock::now();
@@ -88,6 +91,8 @@ private:
     /// left for the run to report one by one.
     void preflight()
     {
+        if (!options_.preview.empty())
+            image_library();  // or it is not installed
         std::uint64_t bytes = 0, fogging = 0;
         for (const std::size_t i : to_do_) {
             try {
@@ -204,12 +209,12 @@ private:
         const auto start = std::chrono::steady_clock::now();
         Frame &frame = *job.frame;
         const bool previewed = !options_.preview.empty() && (preview_.is_sequence() || job.index == to_do_.front());
-        std::vector<std::uint8_t> preview;
+        Display preview{frame.width, frame.height, {}};
         if (previewed)
-            preview = io_.colors().to_display(frame.pixels.data(), job.stats.pixels, frame.channels);
+            preview.rgb = io_.colors().to_display(frame.pixels.data(), job.stats.pixels, frame.channels);
         io_.write(frame, job.layers, job.weights, options_.provenance ? fogger_.provenance() : "", job.stats);
         if (previewed)
-            write_png(preview_.at(job.stats.files.frame), frame.width, frame.height, preview);
+            write_display(preview, preview_.at(job.stats.files.frame));
         job.frame.reset();
         job.layers.clear();
         job.stats.outcome = Outcome::kDone;

@@ -12,10 +12,19 @@ public:
     {
         return open_picture(file, format, limits);
     }
-    void write(const std::filesystem::path &file, const std::string &final_name, const std::string &format,
-               const Raster &raster) const override
+    std::vector<std::string> write(const std::filesystem::path &file, const std::string &final_name,
+                                   const std::string &format, const Raster &raster) const override
     {
-        write_picture(file, final_name, format, raster);
+        return write_picture(file, final_name, format, raster);
+    }
+    std::vector<float> shrunk(const float *pixels, int channels, int width, int height, int to_width,
+                              int to_height) const override
+    {
+        return shrink_picture(pixels, channels, width, height, to_width, to_height);
+    }
+    Display sheet(const std::vector<Display> &cells, const std::vector<std::string> &labels) const override
+    {
+        return draw_sheet(cells, labels);
     }
     void set_threads(int threads) const override { OIIO::attribute("threads", threads); }
 };

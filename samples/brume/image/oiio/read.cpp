@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <half.h>
 
+#include "image/oiio/metadata.hpp"
 #include "image/oiio/picture.hpp"
 #include "support/error.hpp"
 
@@ -33,6 +34,9 @@ std::unique_ptr<OIIO::ImageInput> opened(const std::filesystem::path &file, cons
         std::replace(why.begin(), why.end(), '\n', ' ');
         fail(file, fmt::format("cannot be read as {}: {}", format, why.empty() ? "it is damaged or of another kind" : why));
     }
+    // Of a DPX that lies on its side the library gives the size upright, but its pixels as they are stored.
+    if (format == "dpx" && spec.get_int_attribute("Orientation", 1) >= 5)
+        std::swap(spec.width, spec.height);
     return input;
 }
 
@@ -86,20 +90,59 @@ public:
     const std::unique_ptr<char[]> bytes;
 };
 
+/// Pixels as the orientation wants them shown. ImageBufAlgo::reorient of OpenImageIO 2.4 takes 5 for 7 and 7 for 5.
+void turn(int orientation, const OIIO::ImageSpec &spec, char *bytes)
+{
+    const bool aside = orientation >= 5,
+               from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+    const bool from_below = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+    const int width = aside ? spec.height : spec.width, height = aside ? spec.width : spec.height;
+    const std::size_t pixel = spec.pixel_bytes(), row = pixel * std::size_t(spec.width);
+    const std::unique_ptr<char[]> stored = std::make_unique_for_overwrite<char[]>(row * std::size_t(spec.height));
+    std::copy_n(bytes, row * std::size_t(spec.height), stored.get());
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x, bytes += pixel) {
+            const int column = aside ? y : x, line = aside ? x : y;
+            std::copy_n(stored.get() + row * std::size_t(from_below ? spec.height - 1 - line : line) +
+                            pixel * std::size_t(from_right ? spec.width - 1 - column : column),
+                        pixel, bytes);
+        }
+}
+
 class RasterSource : public PictureSource {
 public:
     RasterSource(std::filesystem::path file, std::string format, const ReadLimits &limits)
         : file_(std::move(file)), format_(std::move(format))
     {
         OIIO::ImageSpec spec;
-        opened(file_, format_, spec);
+        const auto input = opened(file_, format_, spec);
         check(spec, limits);
+        if (input->seek_subimage(1, 0))
+            notes.push_back("has several pictures: the first is read, and it alone is written");
         PartInfo part;
         part.data_window = {{spec.x, spec.y}, {spec.x + spec.width - 1, spec.y + spec.height - 1}};
         part.display_window = {{spec.full_x, spec.full_y},
                                {spec.full_x + spec.full_width - 1, spec.full_y + spec.full_height - 1}};
-        const float aspect = spec.get_float_attribute("PixelAspectRatio", 1);
-        part.pixel_aspect = aspect > 0 ? double(aspect) : 1;
+        part.pixel_aspect = aspect_of(spec);
+        orientation = spec.get_int_attribute("Orientation", 1);
+        metadata_ = metadata_of(spec);
+        if (orientation != 1) {
+            notes.push_back(
+                fmt::format("is turned upright by its orientation {}: its depth must be upright too", orientation));
+            part.data_window = part.display_window = {{0, 0}, {spec.width - 1, spec.height - 1}};
+            if (lies_on_its_side()) {
+                std::swap(part.data_window.max.x, part.data_window.max.y);
+                part.display_window = part.data_window;
+                part.pixel_aspect = 1 / part.pixel_aspect;
+                for (Attribute &a : metadata_)
+                    if (a.name == "XResolution" || a.name == "YResolution")
+                        a.name[0] ^= 'X' ^ 'Y';
+            }
+        }
+        if (spec.format == OIIO::TypeDesc::UINT16)
+            bits = spec.get_int_attribute("oiio:BitsPerSample", 16) % 16;
+        if (spec.nchannels == 1)
+            spec.channelnames = {"Y"};  // a grey DPX has R
         for (const std::string &name : spec.channelnames) {
             ChannelInfo channel{name, "", "", name.substr(name.rfind('.') + 1)};
             channel.layer = name.substr(0, name.size() - channel.base.size() - (name.size() > channel.base.size()));
@@ -119,19 +162,35 @@ public:
         const auto input = opened(file_, format_, spec);
         auto pixels = std::make_unique<RasterPixels>(parts.front());
         // It could have been replaced since its header was read.
-        if (spec.width != parts.front().width() || spec.height != parts.front().height() ||
-            std::size_t(spec.nchannels) != parts.front().channels.size() ||
-            type_of(file_, spec.format) != parts.front().channels.front().type)
+        const PartInfo &part = parts.front();
+        const int width = lies_on_its_side() ? part.height() : part.width();
+        const int height = lies_on_its_side() ? part.width() : part.height();
+        if (spec.width != width || spec.height != height || spec.get_int_attribute("Orientation", 1) != orientation ||
+            std::size_t(spec.nchannels) != part.channels.size() || type_of(file_, spec.format) != part.channels.front().type)
             fail(file_, "has changed while it was read");
         if (!input->read_image(0, 0, 0, spec.nchannels, spec.format, pixels->bytes.get()) || input->has_error()) {
             std::string why = input->geterror();
             std::replace(why.begin(), why.end(), '\n', ' ');
             fail(file_, fmt::format("pixels cannot be read: {}", why.empty() ? "the file is damaged" : why));
         }
+        if (orientation != 1)
+            turn(orientation, spec, pixels->bytes.get());
         return pixels;
     }
+    Metadata metadata(int) const override { return metadata_; }
 
 private:
+    bool lies_on_its_side() const { return orientation >= 5; }
+
+    double aspect_of(const OIIO::ImageSpec &spec) const
+    {
+        const double aspect = double(spec.get_float_attribute("PixelAspectRatio", 1));
+        if (!(aspect > 0))
+            return 1;
+        // The library takes a JPEG's for its inverse.
+        return format_ == "jpeg" ? 1 / aspect : aspect;
+    }
+
     void check(const OIIO::ImageSpec &spec, const ReadLimits &limits) const
     {
         if (spec.width < 1 || spec.height < 1 || spec.width > limits.side || spec.height > limits.side)
@@ -156,10 +215,8 @@ private:
         if (const int photometric = spec.get_int_attribute("tiff:PhotometricInterpretation", 1);
             photometric == 5 || photometric == 8)
             fail(file_, fmt::format("pixels are {} (expected RGB or grey)", photometric == 5 ? "CMYK" : "CIELAB"));
-        if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation != 1)
-            fail(file_, fmt::format("has the orientation {} (expected 1: turn the pixels themselves, as depth will not turn "
-                                    "with them)",
-                                    orientation));
+        if (const int said = spec.get_int_attribute("Orientation", 1); said < 1 || said > 8)
+            fail(file_, fmt::format("has the orientation {} (expected 1 to 8)", said));
     }
 
     void take_color_space(const OIIO::ImageSpec &spec)
@@ -190,6 +247,7 @@ private:
 
     std::filesystem::path file_;
     std::string format_;
+    Metadata metadata_;
 };
 
 }  // namespace

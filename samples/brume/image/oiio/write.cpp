@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "image/oiio/metadata.hpp"
 #include "image/oiio/picture.hpp"
 #include "support/error.hpp"
 
@@ -41,58 +42,83 @@ void rename_in_dpx(const std::filesystem::path &file, const std::filesystem::pat
         throw FrameError(fmt::format("{}: cannot be written", final_name.string()));
 }
 
+bool has_exif(const OIIO::ImageSpec &spec)
+{
+    return std::any_of(spec.extra_attribs.begin(), spec.extra_attribs.end(), [](const OIIO::ParamValue &value) {
+        return value.name().string().starts_with("Exif:") || value.name() == "ExposureTime" || value.name() == "FNumber";
+    });
+}
+
+std::vector<std::string> metadata_lost(const std::filesystem::path &file, const std::string &format,
+                                       const Metadata &metadata)
+{
+    OIIO::ImageSpec written;
+    const auto input = OIIO::ImageInput::create(format);
+    if (metadata.empty() || !input || !input->open(file.string(), written))
+        return {};
+    return lost_from(written, metadata);
+}
+
 }  // namespace
 
-void write_picture(const std::filesystem::path &file, const std::string &final_name, const std::string &format,
-                   const Raster &raster)
+std::vector<std::string> write_picture(const std::filesystem::path &file, const std::string &final_name,
+                                       const std::string &format, const Raster &raster)
 {
     const auto fail = [&](std::string why) {
         std::replace(why.begin(), why.end(), '\n', ' ');
         throw FrameError(fmt::format("{}: cannot be written: {}", final_name, why));
     };
-    const auto output = OIIO::ImageOutput::create(format);
+    auto output = OIIO::ImageOutput::create(format);
     if (!output)
         fail(fmt::format("this build of OpenImageIO does not write {}: {}", format, OIIO::geterror()));
     OIIO::ImageSpec spec(raster.width, raster.height, int(raster.channels.size()), oiio_type(raster.type));
     spec.channelnames = raster.channels;
     const auto alpha = std::find(raster.channels.begin(), raster.channels.end(), "A");
     spec.alpha_channel = alpha == raster.channels.end() ? -1 : int(alpha - raster.channels.begin());
-    if (raster.straight_alpha)
-        spec.attribute("oiio:UnassociatedAlpha", 1);
-    // For sRGB's sake OpenImageIO 2.4 adds an EXIF directory to a TIFF, and the header points to that and no more to the
-    // picture.
-    if (!raster.color_space.empty() && format != "tiff")
-        spec.attribute("oiio:ColorSpace", raster.color_space);
-    if (raster.pixel_aspect != 1)
-        spec.attribute("PixelAspectRatio", float(raster.pixel_aspect));
-    if (format == "tiff") {
-        spec.attribute("compression", "zip");
-        if (raster.type == SampleType::kHalf)
-            spec.attribute("tiff:half", 1);
-    }
     // Or the formats' writers put today's date in, and two runs differ.
     if (format == "tiff")
         spec.attribute("DateTime", "");
     if (format == "dpx")
         spec.attribute("DateTime", "1970:01:01 00:00:00");
+    put_metadata(spec, format, raster.metadata, raster.pixel_aspect);
+    if (raster.straight_alpha)
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    // For sRGB's sake OpenImageIO 2.4 adds an EXIF directory to a TIFF.
+    if (!raster.color_space.empty() && format != "tiff")
+        spec.attribute("oiio:ColorSpace", raster.color_space);
+    if (format == "tiff") {
+        spec.attribute("compression", "zip");
+        if (raster.type == SampleType::kHalf)
+            spec.attribute("tiff:half", 1);
+    }
     if (format == "jpeg") {
         spec.attribute("compression", "jpeg:98");
         spec.attribute("jpeg:subsampling", "4:4:4");
     }
     if (format == "dpx" && raster.type == SampleType::kUint16)
-        spec.attribute("oiio:BitsPerSample", 16);
+        spec.attribute("oiio:BitsPerSample", raster.bits ? raster.bits : 16);
     // On a full disk OpenImageIO reports success for a PNG that is cut, and ends the process for a JPEG. Coded in memory,
-    // the bytes are written here.
+    // the bytes are written here. But of a TIFF with an EXIF directory the header would point to that, and no more to the
+    // picture.
     OIIO::Filesystem::IOVecOutput coded;
-    const bool in_memory = output->supports("ioproxy") && output->set_ioproxy(&coded);
-    if (!output->open(file.string(), spec))
-        fail(output->geterror());
+    const bool in_memory = !(format == "tiff" && has_exif(spec)) && output->supports("ioproxy");
+    const auto open = [&] { return (!in_memory || output->set_ioproxy(&coded)) && output->open(file.string(), spec); };
+    if (!open()) {
+        // Of a profile that is not for such pixels.
+        std::string why = output->geterror();
+        output = OIIO::ImageOutput::create(format);
+        coded.buffer().clear();
+        coded.seek(0);
+        if (!spec.find_attribute("ICCProfile") || (spec.erase_attribute("ICCProfile"), !open()))
+            fail(why);
+    }
     if (!output->write_image(spec.format, raster.pixels) || !output->close())
         fail(output->geterror());
     if (in_memory)
         write_bytes(file, final_name, coded.buffer());
     if (format == "dpx")
         rename_in_dpx(file, final_name);
+    return metadata_lost(file, format, raster.metadata);
 }
 
 }  // namespace brume::tool

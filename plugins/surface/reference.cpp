@@ -1,0 +1,169 @@
+// Method `reference`: what the medium scatters once of each lamp's light, with its own phase function, by quadrature in
+// double over all directions for each pixel, on the CPU.
+#include <cmath>
+#include <vector>
+
+#include "hemisphere.h"
+#include "passes.h"
+#include "pixels.hpp"
+
+namespace surface {
+
+using namespace brume::maths_double;
+using brume_pixels::at;
+using brume_pixels::store;
+
+namespace {
+
+constexpr double tolerance = 1e-5;
+
+vec3 wide(const brume_plugin_pixels &p, int x, int y)
+{
+    const float *v = at(p, x, y);
+    return vec3(v[0], v[1], v[2]);
+}
+
+// What each block of rows converts again is nothing beside what it integrates.
+struct World {
+    World(const brume_plugin_rows &call)
+        : medium(medium_of(*call.scene)), camera(camera_of(*call.scene)),
+          around(static_cast<const Constants *>(call.constants)->settings)
+    {
+        for (int i = 0; i < around.gaussian_count; ++i)
+            gaussians.push_back(gaussian_of(call.scene->gaussians[i]));
+        const Data data = lights_of(*call.scene);
+        for (int i = 0; i < around.light_count; ++i)
+            lights.push_back(light_at(data.texture(), i));
+    }
+
+    Surface surface_at_pixel(int x, int y, float depth, vec3 normal) const
+    {
+        return surface_at(pixel_ray(camera, vec2(x, y) + 0.5, depth),
+                          around.world_normals ? in_camera(camera, normal) : normal);
+    }
+    Material material_at(const brume_plugin_pixels &albedo, const brume_plugin_pixels &specular,
+                         const brume_plugin_pixels &roughness, int x, int y) const
+    {
+        if (around.material == 0)
+            return unknown_material();
+        const bool glossy = around.material > 1;
+        return material_of(around.material, wide(albedo, x, y), glossy ? wide(specular, x, y) : vec3(0),
+                           glossy ? *at(roughness, x, y) : 1);
+    }
+
+    Medium medium;
+    Camera camera;
+    brume::maths_float::SurfaceSettings around;
+    std::vector<Gaussian> gaussians;
+    std::vector<Light> lights;
+};
+
+// lit_by_lamp() of the other methods.
+vec3 lit_by_quadrature(const World &world, const Surface &surface, Light lamp, const Material &material, vec3 own)
+{
+    const vec3 way = lamp.position - surface.point;
+    const double distance = glm::length(way);
+    if (lamp.type == light_directional || !(distance > smallest_light))
+        return own;
+    const vec3 to_lamp = way / distance, up = surface.normal == vec3(0) ? to_lamp : surface.normal;
+    brume::airlight::ReferenceScene seen{world.medium};
+    // Noise is of view rays.
+    seen.medium.noise = vec4(0);
+    for (int i = 0; i < seen.medium.term_count; ++i)
+        seen.medium.terms[i] = moved_term(seen.medium.terms[i], surface.point);
+    double p = terms_to_light(world.medium, lamp, surface.point);
+    std::vector<Gaussian> gaussians = world.gaussians;
+    for (Gaussian &g : gaussians) {
+        p += profile_depth(profile_along(g, surface.point, to_lamp), 0.0, distance);
+        g.center -= surface.point;
+    }
+    const vec3 kept = glm::exp(-(world.medium.scattering + world.medium.absorption) * std::clamp(p, 0.0, density_limit));
+    lamp.position = way;
+    seen.gaussians = gaussians;
+    seen.lights = {&lamp, 1};
+    const int fine = gaussians.empty() && seen.medium.term_count == 0 ? 2 : 1;
+    const vec3 diffuse =
+        finite_or_zero(surface_reference::reflected_once(seen, surface_reference::lambert(up), fine, tolerance));
+    vec3 sum = own * kept;
+    if (!material.known) {
+        const double cosine = std::max(glm::dot(up, to_lamp), least_cosine), strength = fluence(distance, lamp.radius);
+        sum +=
+            own * glm::min(pi * diffuse / glm::max(strength * cosine * lamp.intensity, vec3(1e-30)), vec3(radiance_limit));
+    } else {
+        sum += material.albedo * diffuse;
+        const Shine shine = shine_of(surface, material);
+        if (shine.gloss != vec3(0) && surface.normal != vec3(0))
+            sum += shine.gloss * finite_or_zero(surface_reference::reflected_once(
+                                     seen, surface_reference::phong(shine.mirrored, material.exponent), fine, tolerance));
+    }
+    return glm::min(sum, vec3(radiance_limit));
+}
+
+}  // namespace
+
+brume_status group_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const Constants &constants = *static_cast<const Constants *>(call->constants);
+    const World world(*call);
+    const brume_plugin_pixels *slots = call->slots;
+    return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
+        const Surface surface =
+            world.surface_at_pixel(x, y, *at(slots[group::depth], x, y), wide(slots[group::normals], x, y));
+        const vec3 own = finite_or_zero(wide(slots[group::group], x, y));
+        vec3 becomes = own;
+        if (surface.seen)
+            becomes = lit_by_quadrature(
+                world, surface, world.lights[size_t(constants.light)],
+                world.material_at(slots[group::albedo], slots[group::specular], slots[group::roughness], x, y), own);
+        const vec3 lit = constants.first ? vec3(0) : wide(slots[group::lit], x, y);
+        store(slots[group::rest_out], x, y, {vec3(wide(slots[group::rest], x, y) - own), 1.0f});
+        store(slots[group::lit_out], x, y, {glm::min(lit + becomes, vec3(radiance_limit)), 1.0f});
+    });
+}
+
+brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const Constants &constants = *static_cast<const Constants *>(call->constants);
+    const World world(*call);
+    const brume_plugin_pixels *slots = call->slots;
+    const brume_plugin_pixels &sky_pixels = slots[compose::environment], &ungrouped = slots[compose::ungrouped];
+    const Data environment =
+        sky_pixels.data ? Data(sky_pixels.data, size_t(sky_pixels.width) * size_t(sky_pixels.height), sky_pixels.channels)
+                        : Data(nullptr, 0, 4);
+    return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
+        const brume_pixels::vec4 source = brume_pixels::load(slots[compose::color], x, y);
+        const Surface surface =
+            world.surface_at_pixel(x, y, *at(slots[compose::depth], x, y), wide(slots[compose::normals], x, y));
+        vec3 shown(source);
+        if (surface.seen) {
+            const Material material =
+                world.material_at(slots[compose::albedo], slots[compose::specular], slots[compose::roughness], x, y);
+            const vec3 rest = finite_or_zero(constants.first ? vec3(source) : wide(slots[compose::rest], x, y));
+            vec3 all(0), sum = rest;
+            auto shares = [&](size_t l) { return at(ungrouped, int(l % 1024), int(l / 1024))[0] != 0; };
+            for (size_t l = 0; l < world.lights.size(); ++l)
+                if (shares(l))
+                    all += clear_irradiance(surface, world.lights[l]);
+            if (world.around.environment_order > 0)
+                all += environment_irradiance(environment.texture(), world.around.environment_order,
+                                              in_world(world.camera, surface.normal));
+            for (size_t l = 0; l < world.lights.size(); ++l) {
+                if (!shares(l))
+                    continue;
+                const vec3 own = rest * (clear_irradiance(surface, world.lights[l]) / glm::max(all, vec3(1e-30)));
+                if (own != vec3(0) || material.known)
+                    sum += lit_by_quadrature(world, surface, world.lights[l], material, own) - own;
+            }
+            sum = glm::max(sum, glm::min(rest, vec3(0)));
+            if (!constants.first)
+                sum += wide(slots[compose::lit], x, y);
+            for (int c = 0; c < 3; ++c)
+                shown[c] = composed(source[c], 0, sum[c], call->scene->output_limit);
+        }
+        store(slots[compose::result], x, y, {shown, source.w});
+        if (slots[compose::surface_out].data)
+            store(slots[compose::surface_out], x, y, {shown, 1.0f});
+    });
+}
+
+}  // namespace surface
