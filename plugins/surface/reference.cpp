@@ -66,7 +66,8 @@ vec3 lit_by_quadrature(const World &world, const Surface &surface, Light lamp, c
     if (lamp.type == light_directional || !(distance > smallest_light))
         return own;
     const vec3 to_lamp = way / distance, up = surface.normal == vec3(0) ? to_lamp : surface.normal;
-    brume::airlight::ReferenceScene seen{world.medium};
+    brume::airlight::ReferenceScene seen;
+    seen.medium = world.medium;
     // Noise is of view rays.
     seen.medium.noise = vec4(0);
     for (int i = 0; i < seen.medium.term_count; ++i)

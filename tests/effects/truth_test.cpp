@@ -192,6 +192,27 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
     }
 }
 
+// A spot behind a fence, with the shadow map of the spot. A plain march over the map of 400 steps has an energy of 1.05 as well.
+TEST_F(Truth, ShadowsOfAFence)
+{
+    const Json description = Json::parse(std::ifstream(folder / "slats_s1.json"));
+    Json scene = scene_of(description);
+    scene["lights"] = description["lights"];
+    scene["effects"]["airlight"] = {{"orders", "single"}};
+    const std::filesystem::path clear = folder / "slats_clear.exr";
+    const Picture color = read_exr(clear, {"R", "G", "B", "A"}), depth = read_exr(clear, {"Z"}),
+                  truth = read_exr(folder / "slats_s1.exr", {"R", "G", "B"});
+    Options options;
+    options.inputs["shadow"] = read_exr(folder / "slats_shadow.exr", {"Z"});
+    for (const char *where : backend_names) {
+        const Picture got = run(backend(where), scene.dump(), color, depth, options).output;
+        const double error = rel_mse(got, truth), ratio = energy(got, truth);
+        printf("slats on %s: relMSE %.4f, energy %.3f\n", where, error, ratio);
+        EXPECT_LT(error, 0.005) << where;
+        EXPECT_NEAR(ratio, 1, 0.05) << where;
+    }
+}
+
 // The lamps stand out of sight, so their light in the fog is the airlight's and what surfaces have of it is the filter's. No
 // bound was tuned to: the model comes from lamp_calibration.
 TEST_F(Truth, LampsThatLightWhatIsSeen)
