@@ -71,7 +71,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libglm-dev)
 brume_deb(tool brume graphics "${library} ${same}" "fog for finished HDR images, command
 The command brume puts fog into sequences of OpenEXR frames with depth, says
 beforehand what would run and what it costs, and compares pictures for golden
-tests. Pictures of other formats need brume-image.")
+tests. Pictures of other formats, previews and contact sheets need
+brume-image.")
 set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS brume-image)
 brume_deb(image brume-image graphics "brume ${same}" "fog for finished HDR images, picture formats
 The module by which the command brume reads and writes TIFF, PNG, JPEG, DPX,
