@@ -1,4 +1,5 @@
 // surface: what lamps give the surfaces of a picture that was made in clear air, with the medium between them.
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -11,18 +12,20 @@ namespace {
 constexpr brume_layer_info layer_table[] = {
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "normal", "where surfaces face; without it, as depth has it"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT, 3, 0, "light_group",
-     "what of the picture is one light's; without it, by what lights give in clear air without shadows"},
+     "what of the picture is one light's; without it, by what lights give in clear air"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "albedo",
      "of diffuse reflection; with it, light that the medium brings into shadows and to sides turned away is added"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "specular",
      "of glossy reflection; with albedo and roughness, lamps' highlights dim and widen"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 1, 0, "roughness", "of glossy reflection, 0 to 1; 1: there is none"},
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT | BRUME_LAYER_ANY_SIZE, 1, 0, "shadow",
+     "depth as seen from the light, where brume_light.shadow_kind says: what is in its shadow has no share of it"},
     {sizeof(brume_layer_info), BRUME_LAYER_OUTPUT, 3, 0, "surface",
      "the picture as the lights give it through the medium, before the medium in front of it"},
 };
 static_assert(std::size(layer_table) == layer_count);
 
-constexpr const char *used[] = {"lights", "gaussians", "density_rgb"};
+constexpr const char *used[] = {"lights", "gaussians", "density_rgb", "light_shadows"};
 static_assert(std::size(used) == product_count);
 
 bool any(const float (&v)[3])
@@ -56,6 +59,7 @@ private:
     brume_status plan_normals(double pixels);
     brume_status explain_material();
     brume_status plan_method();
+    brume_status plan_shadows(double pixels);
     brume_status plan_groups(double pixels, double of_light);
 
     const brume_services &services_;
@@ -151,10 +155,25 @@ brume_status Planner::plan_method()
     return services_.upload(host_, upload_table, channels, table.data(), table.size() / size_t(channels), &state_->table);
 }
 
+brume_status Planner::plan_shadows(double pixels)
+{
+    const auto count = std::count_if(scene_.lights, scene_.lights + scene_.light_count,
+                                     [](const brume_plugin_light &light) { return light.shadow_kind > 0; });
+    if (!request_.layers[layer_shadow] || count == 0)
+        return BRUME_OK;
+    if (brume_status s = image("surface shadows", state_->shadows))
+        return s;
+    const double maps = std::min(double(count), double(most_shadow_maps));
+    return entry(true, "shadows",
+                 "what is in the shadow of " + std::to_string(count) + " lights" +
+                     (count > most_shadow_maps ? ", of which the first " + std::to_string(most_shadow_maps) + " count" : ""),
+                 pixels * (4 + 16 + 4 * maps), pixels * 100 * maps);
+}
+
 brume_status Planner::plan_groups(double pixels, double of_light)
 {
     if (!request_.layers[layer_light_group])
-        return entry(false, "group", "no layer light_group: shares by what lights give without shadows", 0, 0);
+        return entry(false, "group", "no layer light_group: shares by what lights give in clear air", 0, 0);
     for (int i = 0; i < 2; ++i) {
         if (brume_status s = image("surface rest", state_->rest[i]))
             return s;
@@ -181,6 +200,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     if (brume_status s = explain_material())
         return s;
     if (brume_status s = plan_method())
+        return s;
+    if (brume_status s = plan_shadows(pixels))
         return s;
     if (brume_status s = plan_groups(pixels, of_light))
         return s;

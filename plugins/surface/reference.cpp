@@ -140,18 +140,23 @@ brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first
             const Material material =
                 world.material_at(slots[compose::albedo], slots[compose::specular], slots[compose::roughness], x, y);
             const vec3 rest = finite_or_zero(constants.first ? vec3(source) : wide(slots[compose::rest], x, y));
+            const vec4 lit = slots[compose::shadows].data ? vec4(brume_pixels::load(slots[compose::shadows], x, y)) : vec4(1);
+            const auto &s = world.around.shadowed;
             vec3 all(0), sum = rest;
+            auto irradiance = [&](size_t l) {
+                return lit_by_map(ivec4(s.x, s.y, s.z, s.w), lit, int(l)) * clear_irradiance(surface, world.lights[l]);
+            };
             auto shares = [&](size_t l) { return at(ungrouped, int(l % 1024), int(l / 1024))[0] != 0; };
             for (size_t l = 0; l < world.lights.size(); ++l)
                 if (shares(l))
-                    all += clear_irradiance(surface, world.lights[l]);
+                    all += irradiance(l);
             if (world.around.environment_order > 0)
                 all += environment_irradiance(environment.texture(), world.around.environment_order,
                                               in_world(world.camera, surface.normal));
             for (size_t l = 0; l < world.lights.size(); ++l) {
                 if (!shares(l))
                     continue;
-                const vec3 own = rest * (clear_irradiance(surface, world.lights[l]) / glm::max(all, vec3(1e-30)));
+                const vec3 own = rest * (irradiance(l) / glm::max(all, vec3(1e-30)));
                 if (own != vec3(0) || material.known)
                     sum += lit_by_quadrature(world, surface, world.lights[l], material, own) - own;
             }

@@ -45,6 +45,21 @@ brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t 
     });
 }
 
+brume_status shadows_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    using namespace shadows;
+    const brume_plugin_pixels *slots = call->slots;
+    const ivec4 shadowed = constants_of(*call).settings.shadowed;
+    const Camera camera = camera_of(*call->scene);
+    const Texture light_shadows = texture_of(slots[Slot::light_shadows]), shadow_0 = texture_of(slots[Slot::shadow_0]),
+                  shadow_1 = texture_of(slots[Slot::shadow_1]), shadow_2 = texture_of(slots[Slot::shadow_2]),
+                  shadow_3 = texture_of(slots[Slot::shadow_3]);
+    return for_pixels(*call, first, last, [&](int x, int y) {
+        const Ray ray = pixel_ray(camera, pixel_centre(x, y), *at(slots[depth], x, y));
+        store(slots[Slot::shadows], x, y, lit_by_maps(camera, shadowed, SHADOW_MAP_PASSED, ray));
+    });
+}
+
 brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     const Constants &constants = constants_of(*call);
@@ -86,7 +101,7 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
         const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, surface,
                                  material_at(constants.settings, slots[compose::albedo], slots[compose::specular],
                                              slots[compose::roughness], x, y),
-                                 vec3(source), divided, call->scene->output_limit);
+                                 slots[compose::shadows].data ? load(slots[compose::shadows], x, y) : vec4(1.0f), vec3(source), divided, call->scene->output_limit);
         store(slots[compose::result], x, y, vec4(shown, source.w));
         if (slots[compose::surface_out].data)
             store(slots[compose::surface_out], x, y, vec4(shown, 1.0f));

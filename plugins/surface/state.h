@@ -8,14 +8,17 @@
 namespace surface {
 
 // In the order of the effect's tables.
-enum Layer { layer_normal, layer_light_group, layer_albedo, layer_specular, layer_roughness, layer_surface, layer_count };
-enum Product { product_lights, product_gaussians, product_density_rgb, product_count };
+enum Layer { layer_normal, layer_light_group, layer_albedo, layer_specular, layer_roughness, layer_shadow, layer_surface, layer_count };
+enum Product { product_lights, product_gaussians, product_density_rgb, product_light_shadows, product_count };
 
 // Of the data images.
 enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_table };
 
 // Of more Gaussians than these the light's way is not followed through: each costs every pixel and lamp.
 constexpr uint32_t most_gaussians = 256;
+
+// Of whose light the picture's shares know the shadows: a channel each.
+constexpr uint32_t most_shadow_maps = 4;
 
 // What one plan of this effect holds. Images and passes that a plan does not need are NULL.
 struct State {
@@ -27,11 +30,14 @@ struct State {
     brume_plugin_image rest[2] = {};
     brume_plugin_image lit[2] = {};
 
+    brume_plugin_image shadows = nullptr;  // which maps let their light onto each pixel
+
     brume_plugin_image table = nullptr;  // the method's
     brume_plugin_image ungrouped = nullptr, environment = nullptr;
     std::vector<float> ungrouped_values, environment_values;
 
     brume_pass normals_pass = nullptr;
+    brume_pass shadows_pass = nullptr;
     brume_pass group_pass = nullptr;
     brume_pass compose_pass = nullptr;
 };

@@ -64,7 +64,15 @@ struct SurfaceSettings {
     int environment_order;
     int world_normals;
     int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
+    ivec4 shadowed;  // as AirlightSettings has it
 };
+
+// What the maps say of one light; lit: of lit_by_maps().
+PURE float lit_by_map(ivec4 shadowed, vec4 lit, int light)
+{
+    int of = light + 1;
+    return shadowed.x == of ? lit.x : shadowed.y == of ? lit.y : shadowed.z == of ? lit.z : shadowed.w == of ? lit.w : R(1.0);
+}
 
 // What a surface receives of a lamp over what it would in clear air, by the method that is asked for.
 PURE float share_by_method(IN(SurfaceSettings) settings, sampler2D table, float scattering, float absorption, float asymmetry,
@@ -323,12 +331,13 @@ PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSet
 // method psf.
 // ungrouped: of each light, 1 where it has a part in that.
 PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
-                        IN(Material) material, vec3 rest)
+                        IN(Material) material, vec4 lit, vec3 rest)
 {
     vec3 all = vec3(R(0.0));
     for (int l = 0; l < settings.light_count; ++l)
         if (data_texel(ungrouped, l).x != R(0.0))
-            all = min(all + clear_irradiance(surface, light_at(lights, l)), vec3(radiance_limit));
+            all = min(all + lit_by_map(settings.shadowed, lit, l) * clear_irradiance(surface, light_at(lights, l)),
+                      vec3(radiance_limit));
     vec3 sky = vec3(R(0.0));
     if (settings.environment_order > 0)
         sky = environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
@@ -342,7 +351,7 @@ PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings
         if (data_texel(ungrouped, l).x == R(0.0))
             continue;
         Light light = light_at(lights, l);
-        vec3 own = rest * (clear_irradiance(surface, light) / max(all, vec3(R(1e-30))));
+        vec3 own = rest * (lit_by_map(settings.shadowed, lit, l) * clear_irradiance(surface, light) / max(all, vec3(R(1e-30))));
         if (own != vec3(R(0.0)) || material.known)
             change += lit_by_lamp(medium, settings, surface, light, material, gaussians, table, own) - own;
     }
@@ -368,11 +377,11 @@ PURE Divided divided_by_group(IN(Medium) medium, IN(SurfaceSettings) settings, I
 
 // The pixel in the end; source: as it was.
 PURE vec3 relit(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
-                IN(Material) material, vec3 source, IN(Divided) pixel, float limit)
+                IN(Material) material, vec4 lit, vec3 source, IN(Divided) pixel, float limit)
 {
     if (!surface.seen)
         return source;
-    vec3 sum = rest_received(medium, camera, settings, SURFACE_PASSED, surface, material, finite_or_zero(pixel.rest)) + pixel.lit;
+    vec3 sum = rest_received(medium, camera, settings, SURFACE_PASSED, surface, material, lit, finite_or_zero(pixel.rest)) + pixel.lit;
     return vec3(composed(source.x, R(0.0), sum.x, limit), composed(source.y, R(0.0), sum.y, limit),
                 composed(source.z, R(0.0), sum.z, limit));
 }

@@ -1,6 +1,7 @@
 // Light that surfaces receive through the medium.
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -119,6 +120,64 @@ TEST_P(SurfaceOn, DroppedWhereThereIsNothingToDo)
          {relit_scene(coloured, Json::array()), relit_scene({{"scattering", 0}, {"emission", 1}}, lamps), empty})
         EXPECT_EQ(run(context(), scene.dump(), frame.color, frame.depth).output.data, frame.color.data) << scene;
     EXPECT_NE(run(context(), relit_scene(coloured, lamps).dump(), frame.color, frame.depth).output.data, frame.color.data);
+}
+
+// A lamp behind the camera, whose map looks the same way and has something before the left half of the wall. Where nothing but the
+// lamp is known to light the picture, nothing is known of what is in its shadow.
+TEST_P(SurfaceOn, WhatIsInALightsShadowHasNoShareOfIt)
+{
+    const Picture color(16, 12, 3, 1), depth(16, 12, 1, 5);
+    Picture map(64, 64, 1, std::numeric_limits<float>::infinity());
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 32; ++x)
+            *map.at(x, y) = 1.5f;
+    const Json medium{{"scattering", 0.02}, {"absorption", 0.1}};
+    Json lights = Json::array({point_light({0, 0, 1}, 50), point_light({0, 1, 2}, 50)});
+    const Json shadow{{"file", "lamp.exr"},
+                      {"vertical_fov", 90},
+                      {"camera_to_world", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 0, 1}}}};
+    auto becomes = [&](const char *method) {
+        Json scene = relit_scene(medium, lights);
+        scene["effects"]["surface"]["method"] = method;
+        return relit(context(), scene, color, depth, lights[0].contains("shadow") ? std::map<std::string, Picture>{{"shadow", map}}
+                                                                                 : std::map<std::string, Picture>{});
+    };
+    for (const char *method : {"calibrated", "sun", "reference"}) {
+        if (method == std::string("reference") && GetParam() != std::string("cpu"))
+            continue;
+        lights = Json::array({point_light({0, 0, 1}, 50), point_light({0, 1, 2}, 50)});
+        const Picture both = becomes(method);
+        lights.erase(0);
+        const Picture second = becomes(method);
+        lights = Json::array({point_light({0, 0, 1}, 50), point_light({0, 1, 2}, 50)});
+        lights[0]["shadow"] = shadow;
+        const Picture shadowed = becomes(method);
+        lights.erase(1);
+        const Picture alone = becomes(method);
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 16; ++x) {
+                const auto where = ::testing::Message() << method << " at " << x << ", " << y;
+                EXPECT_FLOAT_EQ(*shadowed.at(x, y), *(x < 8 ? second : both).at(x, y)) << where;
+                if (x < 8)
+                    EXPECT_EQ(*alone.at(x, y), 1) << where;
+                else
+                    EXPECT_LT(*alone.at(x, y), 0.9f) << where;
+            }
+    }
+}
+
+// What stands in a light's way tells nothing of whether surfaces are lit or shine.
+TEST_P(SurfaceOn, AShadowMapAloneWakesNothing)
+{
+    const Picture color(16, 12, 3, 1), depth(16, 12, 1, 5), map(8, 8, 1, 3);
+    Json scene = lit_scene(coloured, Json::array({lamps[0]}));
+    scene["lights"][0]["shadow"] = {{"file", "lamp.exr"},
+                                    {"vertical_fov", 90},
+                                    {"camera_to_world", {{1, 0, 0, -1.5}, {0, 1, 0, 2}, {0, 0, 1, -6}, {0, 0, 0, 1}}}};
+    scene.erase("effects");
+    const Picture awake = relit(context(), scene, color, depth, {{"shadow", map}});
+    scene["effects"] = {{"airlight", Json::object()}, {"multiscatter", Json::object()}};
+    EXPECT_EQ(awake.data, relit(context(), scene, color, depth, {{"shadow", map}}).data);
 }
 
 // A picture that is the sum of two lamps' layers becomes the sum of what each becomes alone.

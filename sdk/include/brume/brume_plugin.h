@@ -342,7 +342,7 @@ typedef struct brume_services {
 #define BRUME_WANTED_WITH_MEDIUM 1u /* also in scenes that have a medium and name no effects */
 #define BRUME_WANTED_WITH_LIGHTS 2u /* also in scenes that have a medium and lights or an environment, and name no effects */
 #define BRUME_WANTED_WITH_LAYERS 3u /* also in scenes that have a medium and lights, and name no effects, where frames bring a layer
-                                       that the effect reads */
+                                       that the effect reads, but for those of any size */
 
 typedef struct brume_effect {
   uint32_t struct_size;
