@@ -141,8 +141,7 @@ TEST(AirlightMaps, GpuAgainstCpu)
         const Json scene = with(s.scene, "tier", "maps");
         const Errors e = errors(airlight_of(backend("gl"), scene, frame), airlight_of(cpu(), scene, frame));
         report(s.name, e);
-        // GPUs give the fraction of a bilinear fetch 8 bits. On the CPU the pixels side by side halve a step together, so
-        // around a lamp some have finer steps there.
+        // GPUs give the fraction of a bilinear fetch 8 bits, and around a lamp that decides whether a step is halved.
         EXPECT_LT(e.p95, 1e-3) << s.name;
         EXPECT_LT(e.worst, 0.1) << s.name << " at " << e.x << ", " << e.y;
     }

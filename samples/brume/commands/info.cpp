@@ -120,7 +120,7 @@ void describe_inputs(ordered_json &info, const ImageFile &file, const InfoOption
         throw RequestError(
             fmt::format("--input {}: {} has no colour that it could go with", asked.front().role, file.path().string()));
     info["inputs"] = ordered_json::object();
-    for (const OpenInput &input : open_inputs(file, *color, frame, asked, {}, {}, {}))
+    for (const OpenInput &input : open_inputs(file, *color, frame, asked, {}, {}, {}, {}))
         info["inputs"][input.choice.role] = description(input);
     // No scene says here that some effect will want them.
     for (const std::string &role : known_roles(context.get()))

@@ -7,23 +7,21 @@
 namespace brume::tool {
 namespace {
 
-/// Lays pixels over the colour's data window: the two parts of a multi-part file may cover different ones.
-std::vector<float> place(const std::vector<float> &pixels, std::size_t channels, const PartInfo &from, const PartInfo &onto,
+/// Lays pixels of window `a` over window `b`: the two parts of a multi-part file may cover different ones.
+std::vector<float> place(const std::vector<float> &pixels, std::size_t channels, const Window &a, const Window &b,
                          float elsewhere, std::uint64_t &outside)
 {
-    const std::size_t count = std::size_t(onto.width()) * std::size_t(onto.height());
+    const std::size_t count = std::size_t(b.width()) * std::size_t(b.height());
     std::vector<float> placed(count * channels, elsewhere);
-    const Window &a = from.data_window;
-    const Window &b = onto.data_window;
     const int x0 = std::max(a.min.x, b.min.x), x1 = std::min(a.max.x, b.max.x);
     const int y0 = std::max(a.min.y, b.min.y), y1 = std::min(a.max.y, b.max.y);
     std::uint64_t covered = 0;
     for (int y = y0; y <= y1 && x0 <= x1; ++y) {
-        const auto at = [&](const Window &w, const PartInfo &part) {
-            return channels * (std::size_t(y - w.min.y) * std::size_t(part.width()) + std::size_t(x0 - w.min.x));
+        const auto at = [&](const Window &w) {
+            return channels * (std::size_t(y - w.min.y) * std::size_t(w.width()) + std::size_t(x0 - w.min.x));
         };
-        const float *source = pixels.data() + at(a, from);
-        std::copy(source, source + channels * std::size_t(x1 - x0 + 1), placed.data() + at(b, onto));
+        const float *source = pixels.data() + at(a);
+        std::copy(source, source + channels * std::size_t(x1 - x0 + 1), placed.data() + at(b));
         covered += std::uint64_t(x1 - x0 + 1);
     }
     outside = count - covered;
@@ -82,7 +80,7 @@ InputLayer read_input(const ImageFile &file, const InputChoice &choice, const Pa
         own = file.source().read(choice.part, choice.channels);
         stored = own.get();
     }
-    InputLayer input{choice.role, int(choice.channels.size()), {}};
+    InputLayer input{choice.role, onto.width(), onto.height(), int(choice.channels.size()), {}};
     input.light = choice.light.value_or(0);
     const std::size_t stride = choice.channels.size(), count = std::size_t(part.width()) * std::size_t(part.height());
     input.pixels.resize(count * stride);
@@ -91,7 +89,19 @@ InputLayer read_input(const ImageFile &file, const InputChoice &choice, const Pa
         to_shares(part.find(choice.channels[c])->type, input.pixels.data() + c, count, stride);
     }
     if (part.data_window != onto.data_window)
-        input.pixels = place(input.pixels, stride, part, onto, choice.role == "transmittance" ? 1.0f : 0.0f, input.outside);
+        input.pixels = place(input.pixels, stride, part.data_window, onto.data_window,
+                             choice.role == "transmittance" ? 1.0f : 0.0f, input.outside);
+    return input;
+}
+
+InputLayer read_shadow(const ImageFile &file, const InputChoice &choice)
+{
+    const PartInfo &part = file.part(choice.part);
+    InputLayer input{choice.role, part.display_window.width(), part.display_window.height(), 1, {}};
+    input.light = choice.light.value_or(0);
+    std::uint64_t outside = 0;
+    input.pixels = place(read_channel(file, choice.part, choice.channels.front()), 1, part.data_window, part.display_window,
+                         std::numeric_limits<float>::infinity(), outside);
     return input;
 }
 
@@ -127,8 +137,8 @@ Frame read_frame(ImageFile file, const ColorChoice &color, const DepthSource *de
     }
     const ImageFile &source = same_file ? frame.file : *depth->file;
     const std::vector<float> values = read_depth(source, depth->choice);
-    const PartInfo &from = source.part(depth->choice.part);
-    frame.depth = place(values, 1, from, part, std::numeric_limits<float>::infinity(), frame.outside_depth_window);
+    frame.depth = place(values, 1, source.part(depth->choice.part).data_window, part.data_window,
+                        std::numeric_limits<float>::infinity(), frame.outside_depth_window);
     return frame;
 }
 

@@ -12,9 +12,10 @@
 namespace brume::tool {
 
 /// A layer that is given to the library, over the data window of the picture that it goes with. Where it has no sample there
-/// is no medium: transmittance is 1 there, all else 0.
+/// is no medium: transmittance is 1 there, all else 0. A shadow map has its own size, and nothing where it has no sample.
 struct InputLayer {
     std::string role;
+    int width, height;
     int channels = 3;
     std::vector<float> pixels;  ///< interleaved
     std::uint64_t outside = 0;  ///< pixels without a sample
@@ -53,6 +54,9 @@ void dissociate_alpha(Frame &frame);
 /// `stored`: every channel of the choice's part, where they have been read already.
 InputLayer read_input(const ImageFile &file, const InputChoice &choice, const PartInfo &onto,
                       const StoredPixels *stored = nullptr);
+
+/// A light's shadow map over its display window.
+InputLayer read_shadow(const ImageFile &file, const InputChoice &choice);
 
 /// One channel of one part as floats, row by row over its data window: numbers as they are stored, integers too.
 std::vector<float> read_channel(const ImageFile &file, int part, const std::string &channel);

@@ -1,6 +1,7 @@
 #include "image/resolve_input.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -178,6 +179,35 @@ InputChoice resolve_group(const ImageFile &file, const std::string &wanted, std:
     InputChoice choice =
         resolved(file, "light_group", wanted, &color, fmt::format("{} \"{}\"", asked, wanted), "the scene's " + asked);
     choice.light = light;
+    return choice;
+}
+
+InputChoice resolve_shadow(const ImageFile &file, const std::string &wanted, std::uint32_t light)
+{
+    const std::string asked = fmt::format("lights[{}].shadow.file", light);
+    InputChoice choice{"shadow", 0, {}, "", light};
+    if (!wanted.empty()) {
+        choice = resolved(file, "shadow", wanted, nullptr, fmt::format("{} \":{}\"", asked, wanted), "the scene's " + asked);
+        choice.light = light;
+    } else if (const auto depth = find_depth(file, {}, nullptr, nullptr)) {
+        choice.part = depth->part;
+        choice.channels = {depth->channel};
+        choice.reason = "the scene's " + asked;
+    } else {
+        throw RequestError(fmt::format("{}: {}: no depth by a known name, or several; expected FILE:LAYER with one of {}",
+                                       file.path().string(), asked, list(file, layers_in(file))));
+    }
+    const PartInfo &part = file.part(choice.part);
+    if (choice.channels.size() != 1)
+        throw RequestError(fmt::format("{}: {}: '{}' has {} channels; expected one, of distances", file.path().string(), asked,
+                                       choice.label(), choice.channels.size()));
+    if (const SampleType type = part.find(choice.channels.front())->type;
+        type != SampleType::kHalf && type != SampleType::kFloat)
+        throw RequestError(fmt::format("{}: {}: '{}' is {}; expected half or float, of distances in scene units",
+                                       file.path().string(), asked, choice.label(), name_of(type)));
+    if (std::abs(part.pixel_aspect - 1) > 1e-3)
+        throw RequestError(fmt::format("{}: {}: a pixel aspect of {}; expected square pixels", file.path().string(), asked,
+                                       part.pixel_aspect));
     return choice;
 }
 

@@ -35,12 +35,18 @@ std::optional<FileId> id_of(const std::filesystem::path &file)
     return FileId{status.st_dev, status.st_ino};
 }
 
+/// What FILE:LAYER has before the colon.
+std::string name_alone(const std::string &file)
+{
+    return file.substr(0, end_of_file_name(file));
+}
+
 /// Every file that a scene names, of whatever kind.
 void collect_files(const nlohmann::json &node, const std::filesystem::path &folder, std::vector<FilePattern> &files)
 {
     for (const auto &[key, value] : node.items())
         if (key == "file" && value.is_string())
-            files.emplace_back((folder / value.get<std::string>()).string());
+            files.emplace_back((folder / name_alone(value.get<std::string>())).string());
         else if (value.is_structured())
             collect_files(value, folder, files);
 }

@@ -18,7 +18,7 @@ namespace {
 /// A plan holds its images; a sequence with a moving data window meets a new format with every frame.
 constexpr std::size_t kMostPlans = 4;
 
-constexpr const char *kLightGroup = "light_group";
+constexpr const char *kLightGroup = "light_group", *kShadow = "shadow";
 
 /// As brume_quality.detail.
 double detail_of(const ImageFile &file, const ColorChoice &color)
@@ -33,6 +33,17 @@ double detail_of(const ImageFile &file, const ColorChoice &color)
     return std::sqrt(measure(box_blurred(picture, 4), picture).relative_mse);
 }
 
+/// What the scene's text says of one light; "" where nothing.
+std::string said_of_light(decltype(brume_scene_light_group) *ask, brume_scene scene, std::uint32_t light)
+{
+    std::string said(ask(scene, light, nullptr, 0), '\0');
+    if (said.empty())
+        return said;
+    ask(scene, light, said.data(), said.size());
+    said.pop_back();
+    return said;
+}
+
 std::vector<brume_layer> input_layers(const std::vector<std::string> &roles)
 {
     std::vector<brume_layer> layers;
@@ -44,12 +55,12 @@ std::vector<brume_layer> input_layers(const std::vector<std::string> &roles)
 /// Inputs as a frame has them. The layers are kept by the caller.
 class GivenLayers {
 public:
-    GivenLayers(const std::vector<InputLayer> &inputs, int width, int height)
+    explicit GivenLayers(const std::vector<InputLayer> &inputs)
     {
         images_.reserve(inputs.size());
         for (const InputLayer &input : inputs) {
             // Inputs are only read.
-            images_.push_back(host_image(const_cast<float *>(input.pixels.data()), width, height, input.channels));
+            images_.push_back(host_image(const_cast<float *>(input.pixels.data()), input.width, input.height, input.channels));
             layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
             layers_.back().light = input.light;
         }
@@ -149,6 +160,10 @@ void Fogger::take_scene(const SceneText &text)
     ask_for_quality();
     scene_camera_ = CameraBlock::of_scene(text.text, options_.scene);
     check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options_.scene);
+    shadows_.clear();
+    for (std::uint32_t light = 0; light < scene_info_.light_count; ++light)
+        if (std::string name = said_of_light(brume_scene_light_shadow_file, scene, light); !name.empty())
+            shadows_.push_back({light, std::move(name)});
     for (const LayerOutput &output : outputs_)
         if (output.of_light && output.light >= scene_info_.light_count)
             throw RequestError(fmt::format("--layers '{}': {} has {} lights; expected the number of one, from 0",
@@ -216,8 +231,8 @@ void Fogger::expect(const ImageFile &file, const ColorChoice &color, const Image
     call.output_count = 1;
     std::vector<InputLayer> layers;
     for (const OpenInput &input : inputs)
-        layers.push_back(read_input(input.file ? *input.file : file, input.choice, part));
-    const GivenLayers images(layers, width, height);
+        layers.push_back(read_pixels(input, file, part));
+    const GivenLayers images(layers);
     images.give_to(call);
     call.camera = &shot.camera;
     check_request(context_.get(), brume_plan_execute(made, &call), file.path().string());
@@ -247,6 +262,9 @@ void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int nu
         roles.push_back(kLightGroup);
     if (roles.empty())
         return;
+    // A scene that names shadow maps is planned with them only.
+    if (!shadows_.empty())
+        roles.push_back(kShadow);
     // Which effects run is the library's to say, so it is asked with all of the roles.
     Shot shot = shot_of(file, color, number);
     const std::vector<brume_layer> given = input_layers(roles);
@@ -268,7 +286,7 @@ void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int nu
             if (entry.runs && reads_layer(context_.get(), entry.effect, role)) {
                 if (role == kLightGroup)
                     groups_ = groups;
-                else
+                else if (role != kShadow)
                     known_roles_.push_back(role);
                 break;
             }
@@ -278,20 +296,16 @@ void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int nu
 std::vector<LightGroup> Fogger::scene_groups() const
 {
     std::vector<LightGroup> groups;
-    for (std::uint32_t light = 0; light < scene_info_.light_count; ++light) {
-        std::string name(brume_scene_light_group(scene_.get(), light, nullptr, 0), '\0');
-        if (name.size() <= 1)
-            continue;
-        brume_scene_light_group(scene_.get(), light, name.data(), name.size());
-        groups.push_back({light, name.c_str()});
-    }
+    for (std::uint32_t light = 0; light < scene_info_.light_count; ++light)
+        if (std::string name = said_of_light(brume_scene_light_group, scene_.get(), light); !name.empty())
+            groups.push_back({light, std::move(name)});
     return groups;
 }
 
 std::vector<OpenInput> Fogger::open_inputs(const ImageFile &file, const ColorChoice &color, int number,
                                            const ReadLimits &limits) const
 {
-    return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, limits);
+    return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, shadows_, limits);
 }
 
 brume_plan Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
@@ -378,7 +392,7 @@ try {
     call.output = &color;
     call.outputs = wanted.data();
     call.output_count = std::uint32_t(wanted.size());
-    const GivenLayers inputs(frame.inputs, frame.width, frame.height);
+    const GivenLayers inputs(frame.inputs);
     inputs.give_to(call);
     call.camera = &shot.camera;
     call.frame = number;

@@ -93,6 +93,7 @@ private:
     std::vector<InputRequest> inputs_;
     std::vector<std::string> known_roles_;
     std::vector<LightGroup> groups_;
+    std::vector<ShadowFile> shadows_;
     std::map<std::pair<std::vector<double>, std::vector<std::string>>, PlanHandle> plans_;
 };
 

@@ -30,6 +30,19 @@ void check_display(const ImageFile &file, const ColorChoice &color, const OpenIn
                                        text(display), file.path().string()));
 }
 
+OpenInput open_shadow(const ShadowFile &shadow, int frame, const ReadLimits &limits)
+{
+    const auto end = std::min(end_of_file_name(shadow.file), shadow.file.size());
+    const FilePattern pattern(shadow.file.substr(0, end));
+    const std::filesystem::path path = pattern.existing_at(frame);
+    if (std::error_code error; !std::filesystem::exists(path, error))
+        throw RequestError(fmt::format("lights[{}].shadow.file: {}: {}", shadow.light, path.string(),
+                                       error ? error.message() : "no such file"));
+    ImageFile file(path, limits);
+    InputChoice choice = resolve_shadow(file, end < shadow.file.size() ? shadow.file.substr(end + 1) : "", shadow.light);
+    return {std::move(choice), std::move(file)};
+}
+
 }  // namespace
 
 InputRequest parse_input(const std::string &text)
@@ -85,7 +98,8 @@ std::vector<std::string> known_roles(brume_context context)
 
 std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int frame,
                                    const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
-                                   const std::vector<LightGroup> &groups, const ReadLimits &limits)
+                                   const std::vector<LightGroup> &groups, const std::vector<ShadowFile> &shadows,
+                                   const ReadLimits &limits)
 {
     std::vector<OpenInput> inputs;
     for (const InputRequest &request : asked) {
@@ -110,7 +124,15 @@ std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &col
         InputChoice choice = resolve_group(file, group.layer, group.light, color);
         inputs.push_back({std::move(choice), std::nullopt});
     }
+    for (const ShadowFile &shadow : shadows)
+        inputs.push_back(open_shadow(shadow, frame, limits));
     return inputs;
+}
+
+InputLayer read_pixels(const OpenInput &input, const ImageFile &picture, const PartInfo &onto, const StoredPixels *stored)
+{
+    const ImageFile &file = input.file ? *input.file : picture;
+    return input.choice.role == "shadow" ? read_shadow(file, input.choice) : read_input(file, input.choice, onto, stored);
 }
 
 std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs)

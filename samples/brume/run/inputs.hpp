@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "image/file.hpp"
+#include "image/frame.hpp"
 #include "image/resolve_input.hpp"
 #include "run/sdk.hpp"
 
@@ -36,17 +36,28 @@ struct LightGroup {
     std::string layer;
 };
 
+/// The file, or files, of one light's shadow map; FILE:LAYER where a layer is named.
+struct ShadowFile {
+    std::uint32_t light;
+    std::string file;
+};
+
 /// A layer to be given to the library, and the file it is in where that is not the picture's.
 struct OpenInput {
     InputChoice choice;
     std::optional<ImageFile> file;
 };
 
-/// What was asked for, the scene's groups, and of `known` roles what the picture's file has. Throws FrameError for files
+/// What was asked for, the scene's groups and shadow maps, and of `known` roles what the picture's file has. Throws FrameError for files
 /// that cannot be read, RequestError where layers cannot be resolved.
 std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int frame,
                                    const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
-                                   const std::vector<LightGroup> &groups, const ReadLimits &limits);
+                                   const std::vector<LightGroup> &groups, const std::vector<ShadowFile> &shadows,
+                                   const ReadLimits &limits);
+
+/// The pixels of one of them. stored: every channel of the choice's part of the picture, where they have been read already.
+InputLayer read_pixels(const OpenInput &input, const ImageFile &picture, const PartInfo &onto,
+                       const StoredPixels *stored = nullptr);
 
 /// Each once.
 std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs);
