@@ -278,6 +278,19 @@ TEST_F(Pictures, OfSeveralPicturesInAFileItIsSaidThatOneIsRead)
     EXPECT_EQ(run("again.png", {"--input-space", "sRGB"}).status, 0);
 }
 
+TEST_F(Pictures, LayersThatStayBehindAreSaid)
+{
+    write_exr(folder_ / "in.exr", {{rgbz()}});
+    write_text(clear_, kClear);
+    for (const char *output : {"o.png", "o.tif", "o.npy", "o.exr"}) {
+        const Result r = brume({"run", clear_.string(), (folder_ / "in.exr").string(), "-o", (folder_ / output).string(),
+                                "--output-space", "sRGB"});
+        ASSERT_EQ(r.status, 0) << r.err;
+        EXPECT_EQ(r.err.find("1 other channels stay behind") != std::string::npos, output != std::string("o.exr"))
+            << output << ": " << r.err;
+    }
+}
+
 TEST_F(Pictures, DepthComesFromPfmAndNpyInAnyOrder)
 {
     ASSERT_EQ(run("o.png").status, 0);

@@ -124,6 +124,15 @@ template <class T> void to_floats(const Frame &frame, const Channels &channels, 
             out[i * n + c] = T(frame.pixels[i * std::size_t(frame.channels) + channels.at[c]]);
 }
 
+/// Of all parts, what the picture's colour is not.
+std::size_t other_channels(const Frame &frame)
+{
+    std::size_t count = 0;
+    for (const PartInfo &part : frame.file.parts())
+        count += part.channels.size();
+    return count - (frame.color.luminance ? 1 : 3) - !frame.color.alpha.empty();
+}
+
 WriteReport write_raster(const Frame &frame, const std::filesystem::path &output, const Format &format, SampleType type,
                          const WriteOptions &options)
 {
@@ -161,6 +170,8 @@ WriteReport write_raster(const Frame &frame, const std::filesystem::path &output
     if (frame.channels == 4 && !has_alpha)
         report.warnings.push_back(
             fmt::format("alpha is not written: {}{} has none", grey_array ? "grey " : "", format.name));
+    if (const std::size_t others = other_channels(frame))
+        report.warnings.push_back(fmt::format("{} other channels stay behind: {} holds the colour", others, format.name));
     if (frame.part().data_window != frame.part().display_window)
         report.warnings.push_back(fmt::format("{} has no windows: the data window's {} x {} pixels are written", format.name,
                                               frame.width, frame.height));
