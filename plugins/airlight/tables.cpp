@@ -4,47 +4,22 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <utility>
 
 #include "maths.hpp"
+#include "quadrature.h"
 
 namespace brume::airlight {
 namespace {
 
 using std::numbers::pi;
 
-constexpr int order = 16;
-
-struct Node {
-    double at, weight;  // of [0, 1]
-};
-
-// Gauss-Legendre nodes by Newton's method.
-std::array<Node, order> gauss_legendre()
-{
-    std::array<Node, order> nodes;
-    for (int i = 0; i < order; ++i) {
-        double x = std::cos(pi * (i + 0.75) / (order + 0.5)), slope = 1;
-        for (int round = 0; round < 8; ++round) {
-            double before = 1, value = x;
-            for (int k = 2; k <= order; ++k)
-                before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
-            slope = order * (x * value - before) / (x * x - 1);
-            x -= value / slope;
-        }
-        nodes[size_t(i)] = {0.5 + 0.5 * x, 1 / ((1 - x * x) * slope * slope)};
-    }
-    return nodes;
-}
-
 // Composite, of equal pieces.
 template <class Function> double integral(const Function &f, double from, double to, int pieces)
 {
-    static const std::array<Node, order> nodes = gauss_legendre();
     double sum = 0;
     for (int i = 0; i < pieces; ++i) {
         const double a = from + (to - from) * i / pieces, width = (to - from) / pieces;
-        for (const Node &node : nodes)
+        for (const Node &node : gauss_legendre())
             sum += node.weight * width * f(a + width * node.at);
     }
     return sum;

@@ -7,36 +7,24 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <utility>
 #include <vector>
 
+#include "airlight/quadrature.h"
 #include "airlight/reference_ray.h"
 
 namespace surface_reference {
 
 using namespace brume::maths_double;
 
-struct Node {
-    double at, weight;  // of [0, 1]
-};
+using brume::airlight::Node;
 
-// 16 Gauss-Legendre nodes in each of `pieces`, by Newton's method.
+// The nodes of each of `pieces` of [0, 1].
 inline std::vector<Node> panels(int pieces)
 {
-    constexpr int order = 16;
     std::vector<Node> all;
     for (int p = 0; p < pieces; ++p)
-        for (int i = 0; i < order; ++i) {
-            double x = std::cos(std::numbers::pi * (i + 0.75) / (order + 0.5)), slope = 1;
-            for (int round = 0; round < 8; ++round) {
-                double before = 1, value = x;
-                for (int k = 2; k <= order; ++k)
-                    before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
-                slope = order * (x * value - before) / (x * x - 1);
-                x -= value / slope;
-            }
-            all.push_back({(p + 0.5 + 0.5 * x) / pieces, 1 / ((1 - x * x) * slope * slope) / pieces});
-        }
+        for (const Node &node : brume::airlight::gauss_legendre())
+            all.push_back({(p + node.at) / pieces, node.weight / pieces});
     return all;
 }
 

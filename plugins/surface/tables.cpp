@@ -4,46 +4,17 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
+#include "airlight/quadrature.h"
 #include "airlight/tables.h"
 #include "maths.hpp"
 
 namespace surface {
 namespace {
 
+using brume::airlight::gauss_legendre;
 using std::numbers::pi;
 namespace maths = brume::maths_double;
-
-constexpr int order = 16;
-
-struct Node {
-    double at, weight;  // of [0, 1]
-};
-
-// Gauss-Legendre nodes by Newton's method.
-std::array<Node, order> gauss_legendre()
-{
-    std::array<Node, order> nodes;
-    for (int i = 0; i < order; ++i) {
-        double x = std::cos(pi * (i + 0.75) / (order + 0.5)), slope = 1;
-        for (int round = 0; round < 8; ++round) {
-            double before = 1, value = x;
-            for (int k = 2; k <= order; ++k)
-                before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
-            slope = order * (x * value - before) / (x * x - 1);
-            x -= value / slope;
-        }
-        nodes[size_t(i)] = {0.5 + 0.5 * x, 1 / ((1 - x * x) * slope * slope)};
-    }
-    return nodes;
-}
-
-const std::array<Node, order> &nodes()
-{
-    static const std::array<Node, order> all = gauss_legendre();
-    return all;
-}
 
 // PSF_T sin gamma / (T e^-T), in the form that does not overflow.
 double spread(double depth, double gamma)
@@ -69,7 +40,7 @@ double around(double exponent, double theta, double gamma)
     const double least = std::max(0.0, most * std::exp(-faint / exponent));
     const double end = std::acos(std::clamp((least - a) / b, -1.0, 1.0));
     double sum = 0;
-    for (const Node &node : nodes())
+    for (const auto &node : gauss_legendre())
         sum += node.weight * std::pow(std::max(a + b * std::cos(end * node.at), 0.0), exponent);
     return 2 * end * sum;
 }
@@ -93,7 +64,7 @@ template <class Function> void for_nodes(double exponent, double theta, const Fu
     for (size_t i = 0; i + 1 < ends.size(); ++i) {
         const double from = std::sqrt(ends[i] / pi), width = std::sqrt(ends[i + 1] / pi) - from;
         if (width > 0)
-            for (const Node &node : nodes()) {
+            for (const auto &node : gauss_legendre()) {
                 const double x = from + width * node.at;
                 f(pi * x * x, node.weight * width * 2 * pi * x);
             }
@@ -178,7 +149,7 @@ double mean_depth_of_gaussian(double distance)
     constexpr int pieces = 32;
     double sum = 0;
     for (int i = 0; i < pieces; ++i)
-        for (const Node &node : nodes()) {
+        for (const auto &node : gauss_legendre()) {
             const double s = (i + node.at) / pieces;
             sum += node.weight / pieces * std::exp(u * u * (s - 1) * (s + 1));
         }
