@@ -114,14 +114,18 @@ void check_shadow(const Light &light, const std::string &name)
     if (shadow.kind == BRUME_SHADOW_NONE)
         return;
     const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
-    if (shadow.kind != (parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE))
+    const bool around = shadow.kind == BRUME_SHADOW_LATLONG;
+    if (shadow.kind != (parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE) && (parallel || !around))
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("{}.shadow_kind: {}; expected BRUME_SHADOW_NONE or {}", name, shadow.kind,
-                                parallel ? "_ORTHOGRAPHIC for a directional light" : "_PERSPECTIVE for a point or spot light"));
+                                parallel ? "_ORTHOGRAPHIC for a directional light" : "_PERSPECTIVE or _LATLONG for a point or spot light"));
     if (shadow.depth != BRUME_DEPTH_PLANAR && shadow.depth != BRUME_DEPTH_RAY)
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY", name, shadow.depth));
-    check(shadow.extent, parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
+    if (around && shadow.depth != BRUME_DEPTH_RAY)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around", name, shadow.depth));
+    if (!around)
+        check(shadow.extent, parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
     std::array<double, 16> matrix;
     for (size_t i = 0; i < 16; ++i) {
         check(shadow.to_world[i], ranges::any, fmt::format("{}.shadow_to_world[{}]", name, i));

@@ -9,9 +9,23 @@ namespace {
 
 LightShadow read_shadow(const JsonNode &node, bool parallel, const std::filesystem::path &folder)
 {
-    const char *const extent = parallel ? "orthographic_width" : "vertical_fov";
-    node.allow_only({"file", "camera_to_world", extent, "depth"});
     LightShadow shadow;
+    if (const auto projection = parallel ? std::nullopt : node.find("projection")) {
+        const std::string what = "\"latlong\"";
+        if (projection->string(what) != "latlong")
+            projection->expected(what);
+        node.allow_only({"file", "camera_to_world", "projection"});
+        shadow.kind = BRUME_SHADOW_LATLONG;
+        shadow.depth = BRUME_DEPTH_RAY;
+        shadow.file = (folder / node.get("file").string("the name of an image")).string();
+        shadow.to_world = read_matrix(node.get("camera_to_world"));
+        return shadow;
+    }
+    const char *const extent = parallel ? "orthographic_width" : "vertical_fov";
+    if (parallel)
+        node.allow_only({"file", "camera_to_world", extent, "depth"});
+    else
+        node.allow_only({"file", "camera_to_world", extent, "depth", "projection"});
     shadow.kind = parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE;
     shadow.file = (folder / node.get("file").string("the name of an image")).string();
     shadow.to_world = read_matrix(node.get("camera_to_world"));

@@ -22,7 +22,10 @@ void evaluate_shadow(const LightShadow &shadow, const Pose &pose, const FrameVal
     if (shadow.kind == BRUME_SHADOW_NONE)
         return;
     const bool perspective = shadow.kind == BRUME_SHADOW_PERSPECTIVE;
-    const double extent = values.get(shadow.extent, perspective ? ranges::shadow_angle : ranges::positive, name.of(".shadow_extent"));
+    const bool around = shadow.kind == BRUME_SHADOW_LATLONG;
+    const double extent = around ? 1.0
+                                 : values.get(shadow.extent, perspective ? ranges::shadow_angle : ranges::positive,
+                                              name.of(".shadow_extent"));
     std::array<double, 16> to_world;
     for (size_t i = 0; i < 16; ++i)
         to_world[i] = values.get(shadow.to_world[i], ranges::any, name.of(".shadow_to_world"));

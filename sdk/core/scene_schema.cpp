@@ -161,7 +161,16 @@ Json lights()
                       {"file", "camera_to_world", extent}),
             "Shadow map: the scene's depth as seen from the light");
     };
-    const Json perspective = shadow("vertical_fov", described(reference("field_of_view"), "Of the map's height [degrees]")),
+    const Json around = described(
+        object_of({{"file", described({{"type", "string"}}, "Picture of distances, relative to the scene file; one per frame with %04d or "
+                                                            "#### in its name")},
+                   {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
+                                                 "The middle of the picture looks down its -z, +y is up; row-major; rigid")},
+                   {"projection", {{"const", "latlong"}}}},
+                  {"file", "camera_to_world", "projection"}),
+        "Shadow map: the distance to the scene as seen from the light, all around");
+    const Json seen = shadow("vertical_fov", described(reference("field_of_view"), "Of the map's height [degrees]")),
+               perspective{{"oneOf", Json::array({seen, around})}},
                parallel = shadow("orthographic_width", described(number(ranges::positive), "Of the map; scene units"));
     const Json surfaces = described({{"type", "boolean"}}, "false: nothing of what surfaces show is this light's; true by default"),
                group = described({{"type", "string"}, {"minLength", 1}},

@@ -1,5 +1,5 @@
 // Shadows of solid things: depth pictures from lights ("shadow maps"), and which parts of a ray they let a light shine on.
-// Needs data.glsl, ray.glsl. Of four lights at most; settings say which has which map.
+// Needs data.glsl, ray.glsl, phase.glsl. Of four lights at most; settings say which has which map.
 //
 //   light_shadows  4 texels per light, as brume_plugin_light from shadow_rows on
 //   shadow_0 ...   the maps: distance from the map's camera in scene units, NaN, infinite or <= 0 where nothing is
@@ -8,6 +8,7 @@
 #define SHADOW_MAP_PASSED light_shadows, shadow_0, shadow_1, shadow_2, shadow_3
 
 const int shadow_perspective = 1;
+const int shadow_latlong = 3;
 
 // A thing begins to shadow one texel's width behind its depth in the map, as wide as the texel is there: as far as a surface that
 // faces the light by half may be off its texel's centre.
@@ -27,11 +28,13 @@ struct ShadowRay {
     ivec2 size;
     vec3 from;         // where the ray begins, in the space of the map's camera [m]
     vec3 direction;
-    vec2 scale;        // texels per tangent, orthographic: per metre; y as the image's rows run
+    vec2 scale;        // texels per tangent, orthographic: per metre, lat-long: per radian; y as the image's rows run
     float texel;       // a texel's width at distance 1, orthographic: anywhere
     float unit;        // metres per unit of depth
     vec2 seen;         // the part of the ray that the map sees: beyond, all is lit
     int steps;
+    float foot;        // where the ray is nearest to a lat-long map's place, and how far it is from there
+    float height;
 };
 
 PURE float shadow_texel(SHADOW_MAP_IMAGES, int slot, ivec2 texel)
@@ -80,6 +83,12 @@ PURE vec3 shadow_place(IN(ShadowRay) ray, float t)
 // Position in the map, texel centres at half-integers.
 PURE vec2 shadow_position(IN(ShadowRay) ray, vec3 place)
 {
+    if (ray.kind == shadow_latlong) {
+        float across = sqrt(place.x * place.x + place.z * place.z);
+        vec2 angles = vec2(across > R(0.0) ? atan(place.x, -place.z) : R(0.0), atan(place.y, max(across, R(1e-20))));
+        return clamp(R(0.5) * vec2(float(ray.size.x), float(ray.size.y)) + ray.scale * angles, vec2(R(0.0)),
+                     vec2(float(ray.size.x), float(ray.size.y)));
+    }
     float away = ray.kind == shadow_perspective ? max(-place.z, R(1e-20)) : R(1.0);
     vec2 size = vec2(float(ray.size.x), float(ray.size.y));
     return clamp(R(0.5) * size + ray.scale * vec2(place.x / away, place.y / away), vec2(R(0.0)), size);
@@ -89,6 +98,12 @@ PURE vec2 shadow_position(IN(ShadowRay) ray, vec3 place)
 PURE float shadow_step(IN(ShadowRay) ray, int step)
 {
     float s = float(step) / float(ray.steps);
+    if (ray.kind == shadow_latlong && step > 0 && step < ray.steps) {
+        // Even in the angle that the ray sweeps.
+        float first = atan(ray.seen.x - ray.foot, ray.height);
+        float at = first + s * (atan(ray.seen.y - ray.foot, ray.height) - first);
+        return clamp(ray.foot + ray.height * sin(at) / max(cos(at), R(1e-20)), ray.seen.x, ray.seen.y);
+    }
     if (ray.kind == shadow_perspective) {
         float first = -shadow_place(ray, ray.seen.x).z;
         float last = -shadow_place(ray, ray.seen.y).z;
@@ -101,6 +116,11 @@ PURE float shadow_step(IN(ShadowRay) ray, int step)
 PURE ShadowRay shadow_section(ShadowRay ray, float from, float to)
 {
     ray.seen = vec2(max(ray.seen.x, from), min(ray.seen.y, to));
+    if (ray.kind == shadow_latlong) {
+        float swept = atan(ray.seen.y - ray.foot, ray.height) - atan(ray.seen.x - ray.foot, ray.height);
+        ray.steps = clamp(int(swept / ray.texel) + 1, 1, shadow_steps);
+        return ray;
+    }
     vec2 way = shadow_position(ray, shadow_place(ray, ray.seen.y)) - shadow_position(ray, shadow_place(ray, ray.seen.x));
     ray.steps = clamp(int(max(abs(way.x), abs(way.y))) + 1, 1, shadow_steps);
     return ray;
@@ -120,6 +140,8 @@ PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int slot, int li
     ray.unit = camera.metres_per_unit;
     ray.seen = vec2(R(0.0), distance);
     ray.steps = 1;
+    ray.foot = R(0.0);
+    ray.height = R(0.0);
     if (slot < 0)
         return ray;
     vec4 x = data_texel(light_shadows, 4 * light);
@@ -131,6 +153,14 @@ PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int slot, int li
     ray.size = shadow_size(SHADOW_MAP_PASSED, slot);
     ray.from = vec3(x.w, y.w, z.w);
     ray.direction = vec3(dot(vec3(x.x, x.y, x.z), direction), dot(vec3(y.x, y.y, y.z), direction), dot(vec3(z.x, z.y, z.z), direction));
+    if (ray.kind == shadow_latlong) {
+        ray.foot = -dot(ray.from, ray.direction);
+        ray.height = max(length(shadow_place(ray, ray.foot)), R(1e-6));
+        ray.texel = pi / float(ray.size.y);
+        float rows = float(ray.size.y) / pi;
+        ray.scale = vec2(float(ray.size.x) / (R(2.0) * pi), camera.tangent_scale.y > R(0.0) ? rows : -rows);
+        return shadow_section(ray, R(0.0), distance);
+    }
     bool perspective = ray.kind == shadow_perspective;
     float width = float(ray.size.x);
     float height = float(ray.size.y);
@@ -159,6 +189,8 @@ PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int slot, int li
 // Depth that the map has there [m]; far_away where nothing is.
 PURE float shadow_depth_at(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, int x, int y)
 {
+    if (ray.kind == shadow_latlong)
+        x = x < 0 ? x + ray.size.x : x >= ray.size.x ? x - ray.size.x : x;
     float depth = shadow_texel(SHADOW_MAP_PASSED, ray.slot, ivec2(clamp(x, 0, ray.size.x - 1), clamp(y, 0, ray.size.y - 1)));
     return is_finite(depth) && depth > R(0.0) ? min(depth * ray.unit, far_away) : far_away;
 }
@@ -170,9 +202,10 @@ PURE bool is_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, float t)
         return true;
     vec3 place = shadow_place(ray, t);
     vec2 position = shadow_position(ray, place);
-    float there = ray.kind == shadow_perspective && ray.along_ray == 1 ? length(place) : -place.z;
+    bool radial = ray.kind == shadow_latlong || (ray.kind == shadow_perspective && ray.along_ray == 1);
+    float there = radial ? length(place) : -place.z;
     float depth = shadow_depth_at(SHADOW_MAP_PASSED, ray, int(position.x), int(position.y));
-    float width = ray.kind == shadow_perspective ? ray.texel * depth : ray.texel;
+    float width = ray.kind == shadow_perspective || ray.kind == shadow_latlong ? ray.texel * depth : ray.texel;
     // What the neighbours say could not change it.
     if (abs(there - depth) > (shadow_slope + shadow_bias) * width)
         return there <= depth;

@@ -17,9 +17,9 @@ class Shadows : public testing::Test {
 protected:
     Shadows() { write_exr(in_, {{rgbz()}}); }
 
-    fs::path scene(const std::string &shadow) const
+    fs::path scene(const std::string &shadow, const std::string &seen = R"("vertical_fov": 90)") const
     {
-        const std::string more = shadow.empty() ? "" : R"(, "shadow": {"vertical_fov": 90, "file": ")" + shadow + R"(",
+        const std::string more = shadow.empty() ? "" : R"(, "shadow": {)" + seen + R"(, "file": ")" + shadow + R"(",
             "camera_to_world": [[1,0,0,0], [0,0,1,3], [0,-1,0,-5], [0,0,0,1]]})";
         write_text(folder_ / "fog.json", R"({"brume":1, "medium": {"scattering": 0.05},
             "camera": {"vertical_fov": 60, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
@@ -96,6 +96,32 @@ TEST_F(Shadows, ComeWithTheFrameFromTheLayerThatIsNamed)
     EXPECT_EQ(gone.status, 1);
     EXPECT_NE(gone.err.find("key.0002.exr: no such file"), std::string::npos) << gone.err;
     EXPECT_TRUE(fs::exists(folder_ / "gone.0001.exr"));
+}
+
+TEST_F(Shadows, AllAroundTheLamp)
+{
+    const auto light_of = [&](const std::vector<double> &pixels) {
+        const auto clear = read_plane(in_, "G");
+        double sum = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            sum += pixels[i] - clear[i] * std::exp(-0.05 * (1 + double(i) / kWidth));
+        return sum;
+    };
+    const auto run = [&](const std::string &seen) {
+        return brume({"run", scene("around.exr", seen).string(), in_.string(), "-o", out_.string(), "--backend", "cpu"});
+    };
+    // All but what is within .1 m of the lamp.
+    write_exr(folder_ / "around.exr", {{{{"Z", Imf::FLOAT, constant(0.1)}}}});
+    Result r = run(R"("projection": "latlong")");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const double enclosed = light_of(read_plane(out_, "G")), lit = light_of(fogged(""));
+    EXPECT_LT(enclosed, 0.2 * lit);
+    for (const char *wrong : {R"("projection": "latlong", "vertical_fov": 90)", R"("projection": "cube")",
+                              R"("projection": "latlong", "depth": "planar")"}) {
+        r = run(wrong);
+        EXPECT_EQ(r.status, 2) << wrong;
+        EXPECT_NE(r.err.find("expected"), std::string::npos) << r.err;
+    }
 }
 
 // Of a map that was rendered in part, the rest shows nothing.

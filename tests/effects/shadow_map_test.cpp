@@ -124,6 +124,36 @@ TYPED_TEST(ShadowMap, ParallelLightCastsAsWideAsThingsAre)
 }
 
 // A light at the camera: shadows begin one texel's width behind what the ray meets.
+// A ray along +x that passes 5 m from the map's place: before it, behind it, where the picture's edges meet, and below.
+TYPED_TEST(ShadowMap, AllAroundIsAMapToo)
+{
+    using M = Maths<TypeParam>;
+    auto lit = [](double y, double z, int from_column, int to_column, int from_row, int to_row) {
+        std::vector<TypeParam> texels(64 * 32, TypeParam(nothing));
+        for (int row = from_row; row < to_row; ++row)
+            for (int column = from_column; column < to_column; ++column)
+                texels[size_t(64 * row + (column + 64) % 64)] = 2;
+        const std::array<float, 16> place{1, 0, 0, -3, 0, 1, 0, float(-y), 0, 0, 1, float(-z), BRUME_SHADOW_LATLONG, 0, BRUME_DEPTH_RAY, 0};
+        return M::parts(place, texels, 64, {1, 0, 0}, 20);
+    };
+    const double eighth = 5 * std::tan(M_PI / 8);
+    auto expect = [](const std::vector<std::array<double, 2>> &parts, const std::vector<std::array<double, 2>> &expected) {
+        ASSERT_EQ(parts.size(), expected.size());
+        for (size_t i = 0; i < parts.size(); ++i)
+            for (size_t k = 0; k < 2; ++k)
+                EXPECT_NEAR(parts[i][k], expected[i][k], 2e-4) << "part " << i;
+    };
+    expect(lit(0, 5, 36, 40, 0, 32), {{0, 3 + eighth}, {8, 20}});
+    expect(lit(0, -5, -4, 4, 0, 32), {{0, 3 - eighth}, {3 + eighth, 20}});
+    expect(lit(5, 0, 0, 64, 28, 32), {{0, 3 - eighth}, {3 + eighth, 20}});
+    expect(lit(5, 0, 0, 64, 0, 4), {{0, 20}});
+    // Through the map's own place: what is behind 2 m on either side is in shadow.
+    const auto through = lit(0, 0, 0, 64, 0, 32);
+    ASSERT_EQ(through.size(), 1u);
+    EXPECT_NEAR(through[0][0], 1, 0.3);
+    EXPECT_NEAR(through[0][1], 5, 0.3);
+}
+
 TYPED_TEST(ShadowMap, ShadowsBeginBehindThings)
 {
     using M = Maths<TypeParam>;

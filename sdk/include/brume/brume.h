@@ -301,6 +301,7 @@ BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_med
 #define BRUME_SHADOW_NONE 0u
 #define BRUME_SHADOW_PERSPECTIVE 1u  /* of POINT and SPOT */
 #define BRUME_SHADOW_ORTHOGRAPHIC 2u /* of DIRECTIONAL */
+#define BRUME_SHADOW_LATLONG 3u      /* of POINT and SPOT: all around; its middle looks down -z, +x is right of it, +y is its top */
 
 #define BRUME_SURFACES_LIT 0u
 #define BRUME_SURFACES_UNLIT 1u
@@ -324,9 +325,9 @@ typedef struct brume_light {
   /* Where the light's shadow map looks: a depth picture of the scene from the light, which frames bring as the layer "shadow"
      of this light. Its pixels are square; depths are in scene units, and what is NaN, infinite or <= 0 shows nothing. */
   uint32_t shadow_kind;       /* BRUME_SHADOW_...; default NONE */
-  uint32_t shadow_depth;      /* BRUME_DEPTH_PLANAR (default) or BRUME_DEPTH_RAY */
+  uint32_t shadow_depth;      /* BRUME_DEPTH_PLANAR (default) or BRUME_DEPTH_RAY; LATLONG: RAY */
   double shadow_extent;       /* PERSPECTIVE: of the map's height [rad], 0 < extent < pi; ORTHOGRAPHIC: width of the map, in scene
-                                 units, > 0 */
+                                 units, > 0; LATLONG: not read */
   double shadow_to_world[16]; /* as brume_camera.camera_to_world, of the map's camera */
 
   uint32_t surfaces; /* BRUME_SURFACES_LIT (default) or _UNLIT: nothing of what surfaces show is this light's */
