@@ -51,14 +51,14 @@ template <> struct ConstantType<brume::maths_float::vec4> {
 // The member of a pass's constants, and of the GLSL uniform of the same name.
 #define BRUME_CONSTANT(Struct, member)                                                                                      \
     {                                                                                                                       \
-        #member, brume_passes::ConstantType<decltype(Struct::member)>::type,                                                \
-            brume_passes::ConstantType<decltype(Struct::member)>::components, 1, uint32_t(offsetof(Struct, member))         \
+#member, brume_passes::ConstantType < decltype(Struct::member)> ::type,                                             \
+            brume_passes::ConstantType < decltype(Struct::member)> ::components, 1, uint32_t(offsetof(Struct, member))      \
     }
 // A member of a member.
 #define BRUME_CONSTANT_OF(Struct, outer, member)                                                                            \
     {                                                                                                                       \
-        #outer "." #member, brume_passes::ConstantType<decltype(decltype(Struct::outer)::member)>::type,                    \
-            brume_passes::ConstantType<decltype(decltype(Struct::outer)::member)>::components, 1,                           \
+#outer "." #member, brume_passes::ConstantType < decltype(decltype(Struct::outer)::member)> ::type,                 \
+            brume_passes::ConstantType < decltype(decltype(Struct::outer)::member)> ::components, 1,                        \
             uint32_t(offsetof(Struct, outer) + offsetof(decltype(Struct::outer), member))                                   \
     }
 

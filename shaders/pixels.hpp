@@ -33,7 +33,8 @@ inline vec2 pixel_centre(int x, int y)
 }
 
 // function(x, y) for each pixel of the rows first to last (exclusive) of a pass's grid.
-template <class Function> brume_status for_pixels(const brume_plugin_rows &call, int32_t first, int32_t last, Function function)
+template <class Function>
+brume_status for_pixels(const brume_plugin_rows &call, int32_t first, int32_t last, Function function)
 {
     for (int32_t y = first; y < last; ++y)
         for (int32_t x = 0; x < call.width; ++x)

@@ -52,10 +52,7 @@ private:
         return services_.add_entry(host_, &e);
     }
     brume_status drop(const char *name, const std::string &reason) { return entry(false, name, reason, 0, 0); }
-    brume_status fail(const std::string &message)
-    {
-        return services_.fail(host_, BRUME_ERROR_UNSUPPORTED, message.c_str());
-    }
+    brume_status fail(const std::string &message) { return services_.fail(host_, BRUME_ERROR_UNSUPPORTED, message.c_str()); }
 
     brume_status check_tier();
     brume_status explain_orders();
@@ -85,7 +82,8 @@ brume_status Planner::check_tier()
         return BRUME_OK;
     const std::string name = tier == Tier::sun ? "sun" : "fogshop";
     if (tier == Tier::sun && (m.term_count > 0 || scene_.gaussian_count > 0))
-        return fail("tier: sun in a medium that is not constant; expected tier nodes: Sun et al. know homogeneous media only");
+        return fail(
+            "tier: sun in a medium that is not constant; expected tier nodes: Sun et al. know homogeneous media only");
     if (m.phase[0] != 0 || m.phase[3] != 0)
         return fail("tier: " + name + " with a phase function that is not isotropic; expected tier nodes, or g 0");
     return BRUME_OK;
@@ -185,13 +183,15 @@ brume_status Planner::plan_gather()
             return s;
     if (state.parameters.orders == Orders::all) {
         constexpr int values = brume::maths_float::sides * int(BRUME_MAX_LIGHTS);
-        if (brume_status s = services_.create_image(host_, "airlight surroundings", BRUME_DATA_WIDTH,
-                                                    (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, 4, &state.surroundings))
+        if (brume_status s =
+                services_.create_image(host_, "airlight surroundings", BRUME_DATA_WIDTH,
+                                       (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, 4, &state.surroundings))
             return s;
-        if (brume_status s = entry(true, "around", state.parameters.ground == Ground::automatic
-                                                       ? "what the picture shows of surfaces around each lamp"
-                                                       : "what is around each lamp, as ground says",
-                                   4096, scene_.light_count * 6.0 * 1296 * 40))
+        if (brume_status s =
+                entry(true, "around",
+                      state.parameters.ground == Ground::automatic ? "what the picture shows of surfaces around each lamp"
+                                                                   : "what is around each lamp, as ground says",
+                      4096, scene_.light_count * 6.0 * 1296 * 40))
             return s;
     }
     if (brume_status s = plan_tables(services_, host_, scene_, state))
@@ -205,8 +205,8 @@ brume_status Planner::plan_gather()
             return s;
     state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
     if (state.has_blobs)
-        if (brume_status s = entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved",
-                                   0, 0))
+        if (brume_status s =
+                entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved", 0, 0))
             return s;
     return entry(
         true, "gather",
@@ -255,10 +255,10 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     if (brume_status s = state.lit ? plan_gather() : drop("gather", why_unlit(dense)))
         return s;
     const double pixels = double(state.width) * state.height;
-    if (brume_status s = entry(true, "compose",
-                               state.attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
-                               pixels * (16 + 8 + 16 + (state.layered ? 16 : 0) + (state.lit ? 16 : 0)),
-                               pixels * ((state.parameters.reduction > 1 ? 100 : 60) + (state.attenuates ? 20 : 0))))
+    if (brume_status s =
+            entry(true, "compose", state.attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
+                  pixels * (16 + 8 + 16 + (state.layered ? 16 : 0) + (state.lit ? 16 : 0)),
+                  pixels * ((state.parameters.reduction > 1 ? 100 : 60) + (state.attenuates ? 20 : 0))))
         return s;
     if (brume_status s = create_passes(services_, host_, outputs_, state))
         return s;
@@ -286,8 +286,8 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
     return run_passes(*services, host, *frame, state);
 }
 
-// Whether all orders are asked for, and can be had: the published tiers know single scattering only. Alone, this effect is Zhou et
-// al.'s equation 29, in which nothing scatters twice.
+// Whether all orders are asked for, and can be had: the published tiers know single scattering only. Alone, this effect is
+// Zhou et al.'s equation 29, in which nothing scatters twice.
 brume_status settle(const brume_services *services, brume_host host, const brume_plugin_request *request, double *values)
 {
     const Parameters p = read_parameters(values);
@@ -296,9 +296,10 @@ brume_status settle(const brume_services *services, brume_host host, const brume
     const bool able = !is_published(p.tier);
     const bool beside = services->made(host, "attenuated_radiance") == BRUME_MADE_EARLIER &&
                         services->made(host, "density_rgb") != BRUME_MADE_EARLIER;
-    settle_orders(values, able && beside && scattered_on_the_way(*request->scene, request->width, request->height) > p.max_error
-                              ? Orders::all
-                              : Orders::single);
+    settle_orders(values,
+                  able && beside && scattered_on_the_way(*request->scene, request->width, request->height) > p.max_error
+                      ? Orders::all
+                      : Orders::single);
     return BRUME_OK;
 }
 
@@ -306,8 +307,7 @@ brume_status settle(const brume_services *services, brume_host host, const brume
 uint32_t makes_with(const double *values, uint32_t index)
 {
     const Parameters p = read_parameters(values);
-    return made[index] != std::string_view("all_scattering") ||
-           (p.orders == Orders::all && !is_published(p.tier));
+    return made[index] != std::string_view("all_scattering") || (p.orders == Orders::all && !is_published(p.tier));
 }
 
 }  // namespace
@@ -316,27 +316,28 @@ uint32_t makes_with(const double *values, uint32_t index)
 BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
 {
     using namespace airlight;
-    static const brume_effect effect{sizeof(brume_effect),
-                                     BRUME_PLUGIN_ABI,
-                                     "airlight",
-                                     "adds what the scene's lights scatter toward the camera (Zhou et al. 2007, Sun et al. 2005)",
-                                     200,
-                                     BRUME_THREADS_SAFE,
-                                     BRUME_WANTED_WITH_LIGHTS,
-                                     uint32_t(parameter_table().size()),
-                                     layer_count,
-                                     uint32_t(std::size(made)),
-                                     product_count,
-                                     0,
-                                     parameter_table().data(),
-                                     layer_table,
-                                     made,
-                                     used,
-                                     plan,
-                                     execute,
-                                     [](void *state) { delete static_cast<State *>(state); },
-                                     makes_with,
-                                     offer,
-                                     settle};
+    static const brume_effect effect{
+        sizeof(brume_effect),
+        BRUME_PLUGIN_ABI,
+        "airlight",
+        "adds what the scene's lights scatter toward the camera (Zhou et al. 2007, Sun et al. 2005)",
+        200,
+        BRUME_THREADS_SAFE,
+        BRUME_WANTED_WITH_LIGHTS,
+        uint32_t(parameter_table().size()),
+        layer_count,
+        uint32_t(std::size(made)),
+        product_count,
+        0,
+        parameter_table().data(),
+        layer_table,
+        made,
+        used,
+        plan,
+        execute,
+        [](void *state) { delete static_cast<State *>(state); },
+        makes_with,
+        offer,
+        settle};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

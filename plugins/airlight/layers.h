@@ -19,7 +19,8 @@ constexpr brume_layer_info layer_table[] = {
     layer_filled("airlight_error", "estimate of the airlight's error"),
     layer_filled("light_airlight", "airlight of one light", BRUME_LAYER_OF_LIGHT),
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT | BRUME_LAYER_ANY_SIZE, 1, 0, "shadow",
-     "depth as seen from the light, where brume_light.shadow_kind says: what stands in its way throws shadows into the medium"},
+     "depth as seen from the light, where brume_light.shadow_kind says: what stands in its way throws shadows into the "
+     "medium"},
 };
 static_assert(std::size(layer_table) == layer_count);
 

@@ -16,8 +16,9 @@ double integral_of(const Profile &p, double distance)
 {
     const double from = -p.scale * p.middle, to = p.scale * (distance - p.middle);
     // On the flanks erf has no digits left, near the centre erfc has none of a short way through a wide Gaussian.
-    const double area = from > 0.5 ? std::erfc(from) - std::erfc(to) : to < -0.5 ? std::erfc(-to) - std::erfc(-from)
-                                                                               : std::erf(to) - std::erf(from);
+    const double area = from > 0.5  ? std::erfc(from) - std::erfc(to)
+                        : to < -0.5 ? std::erfc(-to) - std::erfc(-from)
+                                    : std::erf(to) - std::erf(from);
     return half_root_pi * p.peak / p.scale * area;
 }
 

@@ -9,7 +9,8 @@ using namespace brume::maths_float;
 int tier_of(const State &state)
 {
     // Of maps, light by light where none scatters: nothing.
-    constexpr int tiers[] = {airlight_nodes, airlight_fogshop, airlight_sun, airlight_reference, airlight_nodes, airlight_nodes};
+    constexpr int tiers[] = {airlight_nodes,     airlight_fogshop, airlight_sun,
+                             airlight_reference, airlight_nodes,   airlight_nodes};
     return tiers[int(state.parameters.tier)];
 }
 

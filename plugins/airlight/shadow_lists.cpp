@@ -74,8 +74,8 @@ bool ShadowLists::refresh(const brume_plugin_scene &scene, bool moved, bool with
 {
     if (!moved && build(scene, false, with_camera))
         return true;
-    // About four cells per Gaussian, fewer where there are many lights. Where Gaussians cover so much that their lists do not
-    // fit, fewer cells are as good.
+    // About four cells per Gaussian, fewer where there are many lights. Where Gaussians cover so much that their lists do
+    // not fit, fewer cells are as good.
     const double most_cells = double(most_entries) / 16 / (1.0 + scene.light_count);
     const double cells_wanted = std::min(4.0 * scene.gaussian_count, most_cells);
     grid_ = std::clamp(int(std::bit_floor(uint32_t(std::sqrt(cells_wanted)))), 1, 1 << most_levels);

@@ -54,11 +54,11 @@ struct State {
     Parameters parameters;
     int width = 0;
     int height = 0;
-    bool lit = false;          // some light or environment scatters in the medium
-    bool attenuates = false;   // no effect before this one does
-    bool layered = false;      // a layer of the caller's stands for the medium's density
-    bool shadowed = false;     // some light has a shadow map, which frames bring
-    bool has_blobs = false;    // tier fogshop, in a medium with Gaussians
+    bool lit = false;                        // some light or environment scatters in the medium
+    bool attenuates = false;                 // no effect before this one does
+    bool layered = false;                    // a layer of the caller's stands for the medium's density
+    bool shadowed = false;                   // some light has a shadow map, which frames bring
+    bool has_blobs = false;                  // tier fogshop, in a medium with Gaussians
     brume_plugin_image radiance = nullptr;   // airlight of one pixel per square
     brume_plugin_image error = nullptr;      // its estimated error
     brume_plugin_image distances = nullptr;  // of those pixels; where they are fewer than the image's

@@ -75,13 +75,14 @@ std::array<double, 6> psf_coefficients(double depth)
     // PSF_T sin gamma / (T e^-T) is -Im E^(T (1 - e^(-i gamma))) / 2 pi; its logarithm at 0 by nodes that crowd there.
     std::array<double, 6> c{};
     for (unsigned l = 0; l < 6; ++l)
-        c[l] = std::sqrt((2 * l + 1) / (4 * pi)) * integral(
-            [=](double x) {
-                const double gamma = pi * x * x;
-                const auto z = depth * (1.0 - std::exp(std::complex<double>(0, -gamma)));
-                return -2 * pi * x * scaled_exponential_integral(z).imag() * std::legendre(l, std::cos(gamma));
-            },
-            0, 1, 4);
+        c[l] = std::sqrt((2 * l + 1) / (4 * pi)) *
+               integral(
+                   [=](double x) {
+                       const double gamma = pi * x * x;
+                       const auto z = depth * (1.0 - std::exp(std::complex<double>(0, -gamma)));
+                       return -2 * pi * x * scaled_exponential_integral(z).imag() * std::legendre(l, std::cos(gamma));
+                   },
+                   0, 1, 4);
     return c;
 }
 

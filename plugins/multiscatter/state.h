@@ -22,8 +22,8 @@ struct State {
     int top = 0;        // K; 0: no pyramid
     bool beside_lights = false;      // another effect adds what the lights scatter once,
     bool beside_all_orders = false;  // or all of it
-    bool layered = false;        // each colour has a density of its own: product density_rgb
-    uint32_t outputs = 0;        // bits by Layer
+    bool layered = false;            // each colour has a density of its own: product density_rgb
+    uint32_t outputs = 0;            // bits by Layer
 
     // Level 0 of a pyramid and, stacked, its levels 1 to K.
     brume_plugin_image radiance = nullptr;  // RGB: L_sc, A: W
@@ -43,8 +43,8 @@ struct State {
     SpreadSource tabled;  // what `table` was made of
 
     brume_pass spread = nullptr, share = nullptr, smooth = nullptr, collect = nullptr;  // of kernel calibrated
-    brume_pass scatter = nullptr, downsample = nullptr;                                  // of kernel paper
-    brume_pass find_sources = nullptr;                                                   // of the references
+    brume_pass scatter = nullptr, downsample = nullptr;                                 // of kernel paper
+    brume_pass find_sources = nullptr;                                                  // of the references
     brume_pass compose = nullptr;
 
     brume::maths_float::ivec2 size() const { return {width, height}; }

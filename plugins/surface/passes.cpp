@@ -27,9 +27,9 @@ constexpr brume_slot shadows_slots[] = {fetch("depth"),    fetch("light_shadows"
                                         fetch("shadow_2"), fetch("shadow_3"),      write("shadows")};
 static_assert(std::size(shadows_slots) == shadows::slot_count);
 
-constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),   fetch("lit"),        fetch("depth"),
-                                        fetch("normals"),     fetch("lights"), fetch("ungrouped"),  fetch("gaussians"),
-                                        fetch("environment"), fetch("table"),  fetch("albedo"),     fetch("specular"),
+constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),    fetch("lit"),       fetch("depth"),
+                                        fetch("normals"),     fetch("lights"),  fetch("ungrouped"), fetch("gaussians"),
+                                        fetch("environment"), fetch("table"),   fetch("albedo"),    fetch("specular"),
                                         fetch("roughness"),   fetch("shadows"), write("result"),    write("surface_out")};
 static_assert(std::size(compose_slots) == compose::slot_count);
 

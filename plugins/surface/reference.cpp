@@ -140,7 +140,8 @@ brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first
             const Material material =
                 world.material_at(slots[compose::albedo], slots[compose::specular], slots[compose::roughness], x, y);
             const vec3 rest = finite_or_zero(constants.first ? vec3(source) : wide(slots[compose::rest], x, y));
-            const vec4 lit = slots[compose::shadows].data ? vec4(brume_pixels::load(slots[compose::shadows], x, y)) : vec4(1);
+            const vec4 lit =
+                slots[compose::shadows].data ? vec4(brume_pixels::load(slots[compose::shadows], x, y)) : vec4(1);
             const auto &s = world.around.shadowed;
             vec3 all(0), sum = rest;
             auto irradiance = [&](size_t l) {

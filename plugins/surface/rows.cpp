@@ -101,7 +101,8 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
         const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, surface,
                                  material_at(constants.settings, slots[compose::albedo], slots[compose::specular],
                                              slots[compose::roughness], x, y),
-                                 slots[compose::shadows].data ? load(slots[compose::shadows], x, y) : vec4(1.0f), vec3(source), divided, call->scene->output_limit);
+                                 slots[compose::shadows].data ? load(slots[compose::shadows], x, y) : vec4(1.0f),
+                                 vec3(source), divided, call->scene->output_limit);
         store(slots[compose::result], x, y, vec4(shown, source.w));
         if (slots[compose::surface_out].data)
             store(slots[compose::surface_out], x, y, vec4(shown, 1.0f));

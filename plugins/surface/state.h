@@ -8,7 +8,16 @@
 namespace surface {
 
 // In the order of the effect's tables.
-enum Layer { layer_normal, layer_light_group, layer_albedo, layer_specular, layer_roughness, layer_shadow, layer_surface, layer_count };
+enum Layer {
+    layer_normal,
+    layer_light_group,
+    layer_albedo,
+    layer_specular,
+    layer_roughness,
+    layer_shadow,
+    layer_surface,
+    layer_count
+};
 enum Product { product_lights, product_gaussians, product_density_rgb, product_light_shadows, product_count };
 
 // Of the data images.

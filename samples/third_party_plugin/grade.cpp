@@ -43,7 +43,8 @@ brume_status rows(const brume_plugin_rows *call, int32_t first, int32_t last)
     const Medium medium = medium_of(*call->scene);
     return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
         const vec4 from = brume_pixels::load(call->slots[color], x, y);
-        brume_pixels::store(call->slots[result], x, y, graded(medium, from, c.gain, c.saturation, call->scene->output_limit));
+        brume_pixels::store(call->slots[result], x, y,
+                            graded(medium, from, c.gain, c.saturation, call->scene->output_limit));
     });
 }
 
@@ -68,12 +69,13 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
     entry.operations = pixels * 20;
     if (const brume_status status = services->add_entry(host, &entry); status || !needed)
         return status;
-    State *state = new (std::nothrow)
-        State{request->width, request->height, {float(std::exp2(exposure)), float(saturation)}, nullptr};
+    State *state =
+        new (std::nothrow) State{request->width, request->height, {float(std::exp2(exposure)), float(saturation)}, nullptr};
     if (!state)
         return services->fail(host, BRUME_ERROR_MEMORY, "no memory for the plan's state");
     *out = state;
-    const std::string shader = "#include \"scene.glsl\"\n" + std::string(text("grade.glsl")) + std::string(text("grade.comp"));
+    const std::string shader =
+        "#include \"scene.glsl\"\n" + std::string(text("grade.glsl")) + std::string(text("grade.comp"));
     return brume_passes::create(*services, host, brume_passes::described("grade", slots, constants, sizeof(Constants)),
                                 "grade.comp", shader, "", rows, state->pass);
 }

@@ -1,5 +1,5 @@
-// rim: light from behind that surfaces show at their edges, seen through the fog. Shows how an effect reads layers (normals, which
-// it needs, and a mask of the user's), fills one of its own, and uses what the host makes of the scene.
+// rim: light from behind that surfaces show at their edges, seen through the fog. Shows how an effect reads layers (normals,
+// which it needs, and a mask of the user's), fills one of its own, and uses what the host makes of the scene.
 #include <new>
 #include <string>
 #include <string_view>
@@ -21,13 +21,16 @@ using real = float;
 #include <brume/maths/formulas_end.hpp>
 
 const brume_parameter_info parameters[] = {
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1e6, 1, "strength", "radiance", "Of the light at grazing angles", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 1, 100, 4, "sharpness", "", "Power by which it falls off from the edge", ""},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1e6, 1, "strength", "radiance",
+     "Of the light at grazing angles", ""},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 1, 100, 4, "sharpness", "",
+     "Power by which it falls off from the edge", ""},
 };
 
 enum Layer { layer_normal, layer_mask, layer_rim };
 const brume_layer_info layers[] = {
-    {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_NEEDED, 3, 0, "normal", "where surfaces face, by which edges are known"},
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_NEEDED, 3, 0, "normal",
+     "where surfaces face, by which edges are known"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 1, 0, "rim_mask", "how much of the rim light each pixel takes"},
     {sizeof(brume_layer_info), BRUME_LAYER_OUTPUT, 3, 0, "rim", "the light that was added"},
 };
@@ -42,7 +45,7 @@ constexpr brume_constant constants[] = {BRUME_CONSTANT(Constants, strength), BRU
                                         BRUME_CONSTANT(Constants, world), BRUME_CONSTANT(Constants, masked)};
 
 enum { color, normal, mask, density, result, light };
-constexpr brume_slot slots[] = {brume_passes::fetch("color"), brume_passes::fetch("normal"), brume_passes::fetch("mask"),
+constexpr brume_slot slots[] = {brume_passes::fetch("color"),   brume_passes::fetch("normal"), brume_passes::fetch("mask"),
                                 brume_passes::fetch("density"), brume_passes::write("result"), brume_passes::write("light")};
 
 brume_status rows(const brume_plugin_rows *call, int32_t first, int32_t last)
@@ -55,13 +58,14 @@ brume_status rows(const brume_plugin_rows *call, int32_t first, int32_t last)
     return for_pixels(*call, first, last, [&](int x, int y) {
         const vec3 through = ray_through(camera, pixel_centre(x, y)), ray = through / length(through);
         const vec4 n = load(s[normal], x, y);
-        vec3 rim = rim_light(medium, vec3(n.x, n.y, n.z), c.world ? in_world(camera, ray) : ray, *at(s[density], x, y), c.strength,
-                             c.sharpness);
+        vec3 rim = rim_light(medium, vec3(n.x, n.y, n.z), c.world ? in_world(camera, ray) : ray, *at(s[density], x, y),
+                             c.strength, c.sharpness);
         if (c.masked)
             rim *= *at(s[mask], x, y);
         const vec4 source = load(s[color], x, y);
         store(s[result], x, y,
-              vec4(compose_radiance(vec3(source.x, source.y, source.z), vec3(1.0f), rim, call->scene->output_limit), source.w));
+              vec4(compose_radiance(vec3(source.x, source.y, source.z), vec3(1.0f), rim, call->scene->output_limit),
+                   source.w));
         if (s[light].data)
             store(s[light], x, y, vec4(rim, 1.0f));
     });
@@ -77,8 +81,9 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 {
     const bool needed = request->parameters[0] > 0;
     const uint64_t pixels = needed ? uint64_t(request->width) * uint64_t(request->height) : 0;
-    const brume_plugin_entry entry{sizeof entry, needed ? 1u : 0u, "rim", needed ? "edges show light from behind" : "strength 0",
-                                   pixels * 60, pixels * 40};
+    const brume_plugin_entry entry{sizeof entry, needed ? 1u : 0u,
+                                   "rim",        needed ? "edges show light from behind" : "strength 0",
+                                   pixels * 60,  pixels * 40};
     if (const brume_status status = services->add_entry(host, &entry); status || !needed)
         return status;
     if (const brume_status status =
@@ -89,10 +94,11 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
     if (!state)
         return services->fail(host, BRUME_ERROR_MEMORY, "no memory for the plan's state");
     *out = state;
-    const std::string shader = "#include \"scene.glsl\"\n#include \"ray.glsl\"\n#include \"density.glsl\"\n#include \"radiance.glsl\"\n" +
-                               std::string(text("rim.glsl")) + std::string(text("rim.comp"));
-    return brume_passes::create(*services, host, brume_passes::described("rim", slots, constants, sizeof(Constants)), "rim.comp",
-                                shader, "", rows, state->pass);
+    const std::string shader =
+        "#include \"scene.glsl\"\n#include \"ray.glsl\"\n#include \"density.glsl\"\n#include \"radiance.glsl\"\n" +
+        std::string(text("rim.glsl")) + std::string(text("rim.comp"));
+    return brume_passes::create(*services, host, brume_passes::described("rim", slots, constants, sizeof(Constants)),
+                                "rim.comp", shader, "", rows, state->pass);
 }
 
 brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
@@ -100,12 +106,9 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
     State &state = *static_cast<State *>(opaque);
     state.constants.world = frame->layers[layer_normal].kind == BRUME_LAYER_WORLD;
     state.constants.masked = frame->layers[layer_mask].image != nullptr;
-    const brume_plugin_image images[] = {frame->color,
-                                         frame->layers[layer_normal].image,
-                                         frame->layers[layer_mask].image,
-                                         frame->products[0].images[0],
-                                         frame->output,
-                                         frame->layers[layer_rim].image};
+    const brume_plugin_image images[] = {
+        frame->color,  frame->layers[layer_normal].image, frame->layers[layer_mask].image, frame->products[0].images[0],
+        frame->output, frame->layers[layer_rim].image};
     return services->run(host, state.pass, images, &state.constants, state.width, state.height, nullptr);
 }
 

@@ -24,7 +24,8 @@ brume_camera read_camera(const brume_camera *given, const char *name)
 
 namespace {
 
-// A caller's layers by their stride; of formats without their images. Names for messages are made only where something is wrong.
+// A caller's layers by their stride; of formats without their images. Names for messages are made only where something is
+// wrong.
 void read_layers(const brume_layer *given, uint32_t count, const char *name, bool of_frame, std::vector<brume_layer> &layers)
 {
     if (count > BRUME_MAX_LAYERS)
@@ -56,12 +57,12 @@ void read_layers(const brume_layer *given, uint32_t count, const char *name, boo
 Format read_format(const brume_format *given)
 {
     brume_format format = BRUME_FORMAT_INIT;
-    format = read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height,
-                         &brume_format::display_x, &brume_format::display_y, &brume_format::display_width,
-                         &brume_format::display_height, &brume_format::depth_kind, &brume_format::depth_range,
-                         &brume_format::far_distance, &brume_format::sky, &brume_format::input_count,
-                         &brume_format::sky_distance, &brume_format::nonpositive, &brume_format::output_count,
-                         &brume_format::inputs, &brume_format::outputs);
+    format =
+        read_struct(given, format, "brume_format", &brume_format::width, &brume_format::height, &brume_format::display_x,
+                    &brume_format::display_y, &brume_format::display_width, &brume_format::display_height,
+                    &brume_format::depth_kind, &brume_format::depth_range, &brume_format::far_distance, &brume_format::sky,
+                    &brume_format::input_count, &brume_format::sky_distance, &brume_format::nonpositive,
+                    &brume_format::output_count, &brume_format::inputs, &brume_format::outputs);
     expect(format.width >= 1 && format.width <= 65536, "brume_format.width", format.width, "1 to 65536");
     expect(format.height >= 1 && format.height <= 65536, "brume_format.height", format.height, "1 to 65536");
     expect(format.display_width >= 0 && format.display_height >= 0 &&

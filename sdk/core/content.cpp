@@ -64,7 +64,8 @@ void Content::scene_changed()
     ++revision_;
 }
 
-const brume_plugin_scene &Content::at(const Scene &scene, double frame, const View &view, const Format &format, uint32_t origin)
+const brume_plugin_scene &Content::at(const Scene &scene, double frame, const View &view, const Format &format,
+                                      uint32_t origin)
 {
     fill_camera(scene, view, format, origin, camera_);
     const bool other_frame = !evaluated_ || (animated_ && frame != frame_);

@@ -8,8 +8,8 @@
 
 namespace brume {
 
-// A scene's medium, camera, lights, Gaussians and environment at one frame, as effects see them. Worked out again only where the
-// frame's values or the camera are others than the frame's before.
+// A scene's medium, camera, lights, Gaussians and environment at one frame, as effects see them. Worked out again only where
+// the frame's values or the camera are others than the frame's before.
 class Content {
 public:
     // To plan with: the medium at its peaks. Of Gaussians only that there are some where files bring them with the frame, or

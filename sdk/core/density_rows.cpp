@@ -24,8 +24,8 @@ brume_status noisy_density_rows(const brume_plugin_rows *call, int32_t first, in
                   tile_gaussians = texture_of(call->slots[3]);
     for (int32_t y = first; y < last; ++y)
         for (int32_t x = 0; x < call->width; ++x) {
-            const vec2 moment =
-                tile_density(medium, camera, gaussians, tiles, tile_gaussians, call->width, ivec2(x, y), *texel(depth, x, y));
+            const vec2 moment = tile_density(medium, camera, gaussians, tiles, tile_gaussians, call->width, ivec2(x, y),
+                                             *texel(depth, x, y));
             float *to = texel(density, x, y);
             to[0] = moment.x;
             to[1] = moment.y;

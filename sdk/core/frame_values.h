@@ -13,7 +13,8 @@
 
 namespace brume {
 
-// "lights[3].intensity": what a message calls a value. Made into text only where it is needed, not for each value of each frame.
+// "lights[3].intensity": what a message calls a value. Made into text only where it is needed, not for each value of each
+// frame.
 struct ValueName {
     std::string_view list;
     int64_t index = -1;  // < 0: none

@@ -18,7 +18,14 @@ namespace {
 // Mesa's software GL ends all loops of a shader's invocation after 65,535 turns and goes on with what it has by then.
 constexpr float most_on_llvmpipe = 500;
 
-enum Upload : uint32_t { upload_of_gaussians, upload_of_tiles, upload_of_tile_gaussians, upload_of_lights, upload_of_light_shadows, upload_of_visible_lights };
+enum Upload : uint32_t {
+    upload_of_gaussians,
+    upload_of_tiles,
+    upload_of_tile_gaussians,
+    upload_of_lights,
+    upload_of_light_shadows,
+    upload_of_visible_lights
+};
 
 constexpr brume_slot gaussian_slots[] = {{"depth", BRUME_ACCESS_FETCH, 0},
                                          {"gaussians", BRUME_ACCESS_FETCH, 0},
@@ -32,8 +39,8 @@ constexpr brume_slot density_slots[] = {{"depth", BRUME_ACCESS_FETCH, 0},
                                         {"density_rgb", BRUME_ACCESS_WRITE, 0}};
 
 template <size_t N>
-brume_pass make_pass(brume_host_t &host, const char *name, const char *file, const std::string &defines, const brume_slot (&slots)[N],
-                     brume_rows_function rows)
+brume_pass make_pass(brume_host_t &host, const char *name, const char *file, const std::string &defines,
+                     const brume_slot (&slots)[N], brume_rows_function rows)
 {
     const std::string source(shader_text(file));
     brume_pass_desc desc{};
@@ -59,7 +66,8 @@ void run(brume_host_t &host, brume_pass pass, const brume_plugin_image *images, 
 
 bool HostProducts::makes(std::string_view product)
 {
-    for (const char *name : {"density", "density_rgb", "gaussian_density", "gaussians", "lights", "light_shadows", "visible_lights"})
+    for (const char *name :
+         {"density", "density_rgb", "gaussian_density", "gaussians", "lights", "light_shadows", "visible_lights"})
         if (product == name)
             return true;
     return false;
@@ -75,7 +83,8 @@ void HostProducts::plan(brume_host_t &host, const std::vector<std::string> &uses
     light_shadows_ = used("light_shadows");
     visible_lights_ = used("visible_lights");
     layer_ = layers.has_input("optical_depth") ? 1 : layers.has_input("transmittance") ? 2 : 0;
-    const bool gaussians = scene.gaussian_count > 0 && (used("gaussians") || used("gaussian_density") || (used("density") && !layer_));
+    const bool gaussians =
+        scene.gaussian_count > 0 && (used("gaussians") || used("gaussian_density") || (used("density") && !layer_));
     const double pixels = double(width) * height;
     if (gaussians) {
         gaussian_density_ = host.create_image("density of Gaussians", width, height, 2);
@@ -122,9 +131,10 @@ void HostProducts::upload_gaussians(brume_host_t &host, const brume_plugin_scene
     host.publish("gaussians", images, 3, scene.gaussian_count, uploads_);
     host.publish("gaussian_density", &gaussian_density_, 1, 0, uploads_);
     if (longest_list() > most_on_llvmpipe)
-        host.warn_on_software_gl(fmt::format("medium.density: {} Gaussians lie behind one tile; llvmpipe may end loops over so many "
-                                             "early and leave lights dark, the CPU backend does not",
-                                             int(longest_list())));
+        host.warn_on_software_gl(
+            fmt::format("medium.density: {} Gaussians lie behind one tile; llvmpipe may end loops over so many "
+                        "early and leave lights dark, the CPU backend does not",
+                        int(longest_list())));
 }
 
 void HostProducts::upload_lights(brume_host_t &host, const brume_plugin_scene &scene)
@@ -137,7 +147,8 @@ void HostProducts::upload_lights(brume_host_t &host, const brume_plugin_scene &s
         host.publish(product, &image, image ? 1 : 0, scene.light_count, uploads_);
     };
     if (lights_)
-        publish("lights", upload_of_lights, scene.light_count > 0, [](const brume_plugin_light &light) { return light.position; });
+        publish("lights", upload_of_lights, scene.light_count > 0,
+                [](const brume_plugin_light &light) { return light.position; });
     const bool shadows = std::any_of(scene.lights, scene.lights + scene.light_count,
                                      [](const brume_plugin_light &light) { return light.shadow_kind > 0; });
     if (light_shadows_)
@@ -159,7 +170,8 @@ void HostProducts::upload_visible_lights(brume_host_t &host, const brume_plugin_
 
 void HostProducts::upload(brume_host_t &host, const brume_plugin_scene &scene)
 {
-    const bool moved = !uploaded_ || revision_ != scene.revision || std::memcmp(&camera_, scene.camera, sizeof camera_) != 0 ||
+    const bool moved = !uploaded_ || revision_ != scene.revision ||
+                       std::memcmp(&camera_, scene.camera, sizeof camera_) != 0 ||
                        std::memcmp(position_, scene.position, sizeof position_) != 0;
     if (!moved)
         return;
@@ -176,7 +188,8 @@ void HostProducts::upload(brume_host_t &host, const brume_plugin_scene &scene)
     uploaded_ = true;
 }
 
-void HostProducts::execute(brume_host_t &host, const brume_plugin_scene &scene, brume_plugin_image depth, const FrameLayers &layers)
+void HostProducts::execute(brume_host_t &host, const brume_plugin_scene &scene, brume_plugin_image depth,
+                           const FrameLayers &layers)
 {
     upload(host, scene);
     if (gaussian_density_) {
@@ -184,7 +197,8 @@ void HostProducts::execute(brume_host_t &host, const brume_plugin_scene &scene, 
         run(host, gaussian_pass_, images, width_, height_);
     }
     if (density_) {
-        const brume_plugin_image layer = layer_ == 0 ? nullptr : layers.input(layer_ == 1 ? "optical_depth" : "transmittance");
+        const brume_plugin_image layer =
+            layer_ == 0 ? nullptr : layers.input(layer_ == 1 ? "optical_depth" : "transmittance");
         const brume_plugin_image images[] = {depth, layer_ ? nullptr : gaussian_density_, layer, density_, density_rgb_};
         run(host, density_pass_, images, width_, height_);
         host.publish("density", &density_, 1, 0, uploads_);

@@ -9,15 +9,15 @@
 
 namespace brume {
 
-// What the host makes of the scene for effects, as brume_plugin_product lists it: made only where something uses it. Its passes
-// are services' like an effect's.
+// What the host makes of the scene for effects, as brume_plugin_product lists it: made only where something uses it. Its
+// passes are services' like an effect's.
 class HostProducts {
 public:
     static bool makes(std::string_view product);
 
     // uses: names of the products that running effects use. Throws Error.
-    void plan(brume_host_t &host, const std::vector<std::string> &uses, const brume_plugin_scene &scene, const FrameLayers &layers,
-              int32_t width, int32_t height);
+    void plan(brume_host_t &host, const std::vector<std::string> &uses, const brume_plugin_scene &scene,
+              const FrameLayers &layers, int32_t width, int32_t height);
     // Throws Error.
     void execute(brume_host_t &host, const brume_plugin_scene &scene, brume_plugin_image depth, const FrameLayers &layers);
 

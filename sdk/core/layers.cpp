@@ -32,8 +32,10 @@ template <class Function> void for_tables(const EffectRegistry &effects, Functio
 const std::vector<Layer> &host_layers()
 {
     static const std::vector<Layer> layers = {
-        {"optical_depth", "optical depth along the ray, RGB or grey: takes the place of the scene's density", BRUME_LAYER_INPUT, 3},
-        {"transmittance", "transmittance along the ray, RGB or grey: takes the place of the scene's density", BRUME_LAYER_INPUT, 3}};
+        {"optical_depth", "optical depth along the ray, RGB or grey: takes the place of the scene's density",
+         BRUME_LAYER_INPUT, 3},
+        {"transmittance", "transmittance along the ray, RGB or grey: takes the place of the scene's density",
+         BRUME_LAYER_INPUT, 3}};
     return layers;
 }
 
@@ -54,8 +56,8 @@ void FrameLayers::plan(const Format &format, const EffectRegistry &effects)
                         continue;
                     const uint32_t flags = of.flags & (directions | BRUME_LAYER_OF_LIGHT | BRUME_LAYER_ANY_SIZE);
                     if (layer.flags && (layer.flags != flags || layer.channels != of.channels))
-                        throw Error(BRUME_ERROR_PLUGIN, fmt::format("layer {}: {} and {} do not mean the same by it", of.name,
-                                                                    first, owner));
+                        throw Error(BRUME_ERROR_PLUGIN,
+                                    fmt::format("layer {}: {} and {} do not mean the same by it", of.name, first, owner));
                     layer.flags = flags;
                     layer.channels = of.channels;
                     first = owner;
@@ -108,14 +110,16 @@ std::vector<uint32_t> FrameLayers::given(const std::vector<Layer> &table) const
 
 void FrameLayers::check(const brume_frame &frame, size_t lights) const
 {
-    const std::pair<const brume_layer *, uint32_t> lists[] = {{frame.inputs, frame.input_count}, {frame.outputs, frame.output_count}};
+    const std::pair<const brume_layer *, uint32_t> lists[] = {{frame.inputs, frame.input_count},
+                                                              {frame.outputs, frame.output_count}};
     for (int list = 0; list < 2; ++list) {
         const uint32_t direction = list == 0 ? BRUME_LAYER_INPUT : BRUME_LAYER_OUTPUT;
         const auto [given, count] = lists[list];
         for (uint32_t i = 0; i < count; ++i) {
             const brume_layer &layer = given[i];
             auto refuse = [&](const std::string &problem) {
-                throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}[{}] ({}): {}", list_of(direction), i, layer.name, problem));
+                throw Error(BRUME_ERROR_ARGUMENT,
+                            fmt::format("{}[{}] ({}): {}", list_of(direction), i, layer.name, problem));
             };
             const FormatLayer *planned = find(layer.name, direction);
             if (!planned)
@@ -124,7 +128,8 @@ void FrameLayers::check(const brume_frame &frame, size_t lights) const
                 refuse(fmt::format("kind {}; the plan was made for {}", layer.kind, planned->name.kind));
             const bool of_light = planned->flags & BRUME_LAYER_OF_LIGHT;
             if (layer.light >= (of_light ? lights : 1))
-                refuse(fmt::format("light {}; expected {}", layer.light, of_light ? fmt::format("an index below {}", lights) : "0"));
+                refuse(fmt::format("light {}; expected {}", layer.light,
+                                   of_light ? fmt::format("an index below {}", lights) : "0"));
             for (uint32_t k = 0; k < i; ++k)
                 if (layer.light == given[k].light && std::string_view(layer.name) == given[k].name)
                     refuse("given twice");
@@ -144,7 +149,8 @@ void FrameLayers::check(const brume_frame &frame, size_t lights) const
         }
         for (uint32_t i = 0; list == 0 && i < count; ++i)
             if (same_memory(*given[i].image, *frame.output))
-                throw Error(BRUME_ERROR_ARGUMENT, fmt::format("inputs[{}] ({}): shares memory with output", i, given[i].name));
+                throw Error(BRUME_ERROR_ARGUMENT,
+                            fmt::format("inputs[{}] ({}): shares memory with output", i, given[i].name));
     }
     for (const FormatLayer &planned : layers_) {
         if (!(planned.flags & BRUME_LAYER_INPUT) || planned.flags & BRUME_LAYER_OF_LIGHT)

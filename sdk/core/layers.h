@@ -15,14 +15,15 @@ const std::vector<Layer> &host_layers();
 // A layer of a format, and how many effects (the host counts as one) do something with it.
 struct FormatLayer {
     Format::LayerName name;
-    uint32_t flags = 0;     // BRUME_LAYER_INPUT or _OUTPUT, _OF_LIGHT and _ANY_SIZE
+    uint32_t flags = 0;  // BRUME_LAYER_INPUT or _OUTPUT, _OF_LIGHT and _ANY_SIZE
     uint32_t channels = 3;
 };
 
 // What a plan's frames bring and may ask for beside colour and depth.
 class FrameLayers {
 public:
-    // Throws Error where some layer is known to no effect that is loaded, naming the nearest, or where effects disagree on it.
+    // Throws Error where some layer is known to no effect that is loaded, naming the nearest, or where effects disagree on
+    // it.
     void plan(const Format &format, const EffectRegistry &effects);
 
     // For each layer of an effect's table: 1 if the format has it.
@@ -33,7 +34,8 @@ public:
 
     const std::vector<FormatLayer> &all() const { return layers_; }
 
-    // Throws Error unless the frame has all inputs and no outputs but those of the format, each once and in memory of its own.
+    // Throws Error unless the frame has all inputs and no outputs but those of the format, each once and in memory of its
+    // own.
     void check(const brume_frame &frame, size_t lights) const;
 
     // Imports the frame's inputs and begins its outputs; seen() refers to them until the next begin().
@@ -60,8 +62,8 @@ private:
     void put(int at, const brume_layer &layer, std::shared_ptr<Image> image, size_t lights);
 
     std::vector<FormatLayer> layers_;
-    std::vector<Images> images_;                  // in their order
-    std::vector<std::shared_ptr<Image>> held_;    // the frame's inputs, then its outputs
+    std::vector<Images> images_;                // in their order
+    std::vector<std::shared_ptr<Image>> held_;  // the frame's inputs, then its outputs
 };
 
 }  // namespace brume

@@ -20,7 +20,8 @@ template <class... Arguments>
 }
 
 template <class Item>
-std::string name_of(const std::string &pass, const char *table, uint32_t index, const char *name, const std::vector<Item> &earlier)
+std::string name_of(const std::string &pass, const char *table, uint32_t index, const char *name,
+                    const std::vector<Item> &earlier)
 {
     const std::string what = fmt::format("{}[{}]", table, index);
     if (!name || !*name)
@@ -41,7 +42,8 @@ PassLayout layout_of(const brume_pass_desc &desc)
         throw Error(BRUME_ERROR_ARGUMENT, "create_pass: its name is NULL");
     layout.name = desc.name;
     if (desc.slot_count > most_slots || (desc.slot_count > 0 && !desc.slots))
-        refuse(layout.name, "{} slots{}; expected at most {}", desc.slot_count, desc.slots ? "" : ", but slots is NULL", most_slots);
+        refuse(layout.name, "{} slots{}; expected at most {}", desc.slot_count, desc.slots ? "" : ", but slots is NULL",
+               most_slots);
     if (desc.constant_count > most_constants || (desc.constant_count > 0 && !desc.constants))
         refuse(layout.name, "{} constants{}; expected at most {}", desc.constant_count,
                desc.constants ? "" : ", but constants is NULL", most_constants);
@@ -53,7 +55,8 @@ PassLayout layout_of(const brume_pass_desc &desc)
         const brume_slot &slot = desc.slots[i];
         std::string name = name_of(layout.name, "slots", i, slot.name, layout.slots);
         if (slot.access > BRUME_ACCESS_WRITE)
-            refuse(layout.name, "slots[{}] \"{}\": access {}; expected BRUME_ACCESS_FETCH, _LINEAR or _WRITE", i, name, slot.access);
+            refuse(layout.name, "slots[{}] \"{}\": access {}; expected BRUME_ACCESS_FETCH, _LINEAR or _WRITE", i, name,
+                   slot.access);
         layout.slots.push_back({std::move(name), slot.access});
     }
     layout.constant_size = desc.constant_size;
@@ -61,7 +64,8 @@ PassLayout layout_of(const brume_pass_desc &desc)
         const brume_constant &constant = desc.constants[i];
         std::string name = name_of(layout.name, "constants", i, constant.name, layout.constants);
         if (constant.type > BRUME_CONSTANT_INT)
-            refuse(layout.name, "constants[{}] \"{}\": type {}; expected BRUME_CONSTANT_FLOAT or _INT", i, name, constant.type);
+            refuse(layout.name, "constants[{}] \"{}\": type {}; expected BRUME_CONSTANT_FLOAT or _INT", i, name,
+                   constant.type);
         if (constant.components < 1 || constant.components > 4)
             refuse(layout.name, "constants[{}] \"{}\": {} components; expected 1 to 4", i, name, constant.components);
         if (constant.count < 1 || constant.count > largest_constants)

@@ -25,14 +25,13 @@ bool contains(const std::vector<std::string> &names, const std::string &name)
 
 brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const Format &format, Purpose purpose)
     : context_(std::move(context)), scene_(std::move(scene)), given_effects_(scene_.effects), format_(format),
-      structure_(scene_, format_),
-      rehearsal_(purpose == Purpose::rehearsal)
+      structure_(scene_, format_), rehearsal_(purpose == Purpose::rehearsal)
 {
     context_->backend->invoke([&] {
         int32_t largest = context_->backend->largest_size();
         if (format_.width > largest || format_.height > largest)
-            throw Error(BRUME_ERROR_UNSUPPORTED, fmt::format("format: {} x {}; this device takes up to {} a side", format_.width,
-                                                             format_.height, largest));
+            throw Error(BRUME_ERROR_UNSUPPORTED, fmt::format("format: {} x {}; this device takes up to {} a side",
+                                                             format_.width, format_.height, largest));
         try {
             layers_.plan(format_, context_->effects);
             expect_shadow_maps();
@@ -54,9 +53,10 @@ void brume_host_t::expect_shadow_maps() const
 {
     for (size_t i = 0; i < scene_.lights.size() && !layers_.has_input("shadow"); ++i)
         if (const std::string &file = scene_.lights[i].shadow.file; !file.empty())
-            throw Error(BRUME_ERROR_SCENE, fmt::format("lights[{}].shadow.file: {} is not read by the library; expected the layer "
-                                                       "shadow among format.inputs, and frames to bring it for light {}",
-                                                       i, file, i));
+            throw Error(BRUME_ERROR_SCENE,
+                        fmt::format("lights[{}].shadow.file: {} is not read by the library; expected the layer "
+                                    "shadow among format.inputs, and frames to bring it for light {}",
+                                    i, file, i));
 }
 
 brume_host_t::~brume_host_t()
@@ -141,9 +141,8 @@ void brume_host_t::check_outputs() const
     std::string missing;
     for (const FormatLayer &layer : layers_.all()) {
         const bool filled = std::any_of(running_.begin(), running_.end(), [&](const PlannedEffect *planned) {
-            return std::any_of(planned->effect->layers.begin(), planned->effect->layers.end(), [&](const Layer &of) {
-                return of.flags & BRUME_LAYER_OUTPUT && of.name == layer.name.name;
-            });
+            return std::any_of(planned->effect->layers.begin(), planned->effect->layers.end(),
+                               [&](const Layer &of) { return of.flags & BRUME_LAYER_OUTPUT && of.name == layer.name.name; });
         });
         if (layer.flags & BRUME_LAYER_OUTPUT && !filled)
             missing += (missing.empty() ? "" : ", ") + layer.name.name;
@@ -163,14 +162,13 @@ void brume_host_t::plan_host_products(const brume_plugin_scene &scene)
     host_products_.plan(*this, uses, scene, layers_, format_.width, format_.height);
     std::rotate(entries_.begin(), entries_.begin() + first, entries_.end());
     for (const FormatLayer &layer : layers_.all()) {
-        const bool by_host = contains(uses, "density") && std::any_of(host_layers().begin(), host_layers().end(), [&](auto &of) {
-                                 return of.name == layer.name.name;
-                             });
-        const bool read = by_host || std::any_of(running_.begin(), running_.end(), [&](const PlannedEffect *planned) {
-                              return std::any_of(planned->effect->layers.begin(), planned->effect->layers.end(), [&](auto &of) {
-                                  return of.flags & BRUME_LAYER_INPUT && of.name == layer.name.name;
-                              });
-                          });
+        const bool by_host = contains(uses, "density") && std::any_of(host_layers().begin(), host_layers().end(),
+                                                                      [&](auto &of) { return of.name == layer.name.name; });
+        const bool read =
+            by_host || std::any_of(running_.begin(), running_.end(), [&](const PlannedEffect *planned) {
+                return std::any_of(planned->effect->layers.begin(), planned->effect->layers.end(),
+                                   [&](auto &of) { return of.flags & BRUME_LAYER_INPUT && of.name == layer.name.name; });
+            });
         if (layer.flags & BRUME_LAYER_INPUT && !read)
             entries_.push_back({false, host_name, layer.name.name, "an input layer that nothing which runs reads", 0, 0, 0});
     }
@@ -186,8 +184,8 @@ void brume_host_t::bind_passes()
             return entry.runs && entry.effect == owner && entry.name == pass.layout.name;
         });
         if (found == entries_.end())
-            throw Error(BRUME_ERROR_PLUGIN, fmt::format("{}: pass \"{}\" is not among the running entries of the plan", owner,
-                                                        pass.layout.name));
+            throw Error(BRUME_ERROR_PLUGIN, fmt::format("{}: pass \"{}\" is not among the running entries of the plan",
+                                                        owner, pass.layout.name));
         pass.entry = int(found - entries_.begin());
     }
 }
@@ -223,17 +221,17 @@ void brume_host_t::update(const Scene &scene, const Format *format)
         return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                           [](auto &x, auto &y) { return x.name == y.name && x.kind == y.kind; });
     };
-    if (difference.empty() && !(same_layers(next.input_layers, format_.input_layers) &&
-                                same_layers(next.output_layers, format_.output_layers)))
+    if (difference.empty() &&
+        !(same_layers(next.input_layers, format_.input_layers) && same_layers(next.output_layers, format_.output_layers)))
         difference = "format: the layers";
     auto same_settings = [](const EffectSettings &a, const EffectSettings &b) {
         return a.name == b.name && a.parameters == b.parameters;
     };
     if (difference.empty() && scene.quality != scene_.quality)
         difference = "quality: another is asked";
-    if (difference.empty() &&
-        !(scene.effects_named == scene_.effects_named && std::equal(scene.effects.begin(), scene.effects.end(), given_effects_.begin(),
-                                                                   given_effects_.end(), same_settings)))
+    if (difference.empty() && !(scene.effects_named == scene_.effects_named &&
+                                std::equal(scene.effects.begin(), scene.effects.end(), given_effects_.begin(),
+                                           given_effects_.end(), same_settings)))
         difference = "effects: they or their parameters are others";
     if (difference.empty())
         difference = wakes(scene, next);

@@ -87,7 +87,8 @@ public:
     brume_status run(brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
                      void *user);
     brume_plugin_image upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels);
-    void publish(const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count, uint64_t revision);
+    void publish(const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count,
+                 uint64_t revision);
 
     // Logged as a warning where the device is Mesa's software GL, once per plan.
     void warn_on_software_gl(const std::string &message);
@@ -137,7 +138,7 @@ private:
     std::vector<std::shared_ptr<brume::Image>> images_;
     std::vector<std::shared_ptr<brume::Pass>> passes_;
     std::vector<const brume::Effect *> pass_owners_;  // of passes_; null: the host
-    std::shared_ptr<brume::Image> between_[2];         // what one effect hands to the next
+    std::shared_ptr<brume::Image> between_[2];        // what one effect hands to the next
     std::unique_ptr<brume::FrameTimer> timer_;
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;

@@ -38,10 +38,9 @@ bool wants(const Scene &scene, const Effect &effect, const FrameLayers &layers)
         return false;
     if (effect.wanted == BRUME_WANTED_WITH_LAYERS)
         return !scene.lights.empty() && std::any_of(effect.layers.begin(), effect.layers.end(), [&](const Layer &layer) {
-                   // A picture of any size is of something else than the frame shows.
-                   return layer.flags & BRUME_LAYER_INPUT && !(layer.flags & BRUME_LAYER_ANY_SIZE) &&
-                          layers.has_input(layer.name);
-               });
+            // A picture of any size is of something else than the frame shows.
+            return layer.flags & BRUME_LAYER_INPUT && !(layer.flags & BRUME_LAYER_ANY_SIZE) && layers.has_input(layer.name);
+        });
     return effect.wanted == BRUME_WANTED_WITH_MEDIUM || (effect.wanted == BRUME_WANTED_WITH_LIGHTS && is_lit(scene));
 }
 

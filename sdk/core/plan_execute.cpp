@@ -14,7 +14,8 @@ using namespace brume;
 
 void brume_host_t::check_frame(const brume_frame &frame) const
 {
-    auto check = [&](const brume_image *image, const char *what, bool writable, uint32_t most_channels, bool any_size = false) {
+    auto check = [&](const brume_image *image, const char *what, bool writable, uint32_t most_channels,
+                     bool any_size = false) {
         if (!image)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: NULL", what));
         const int32_t largest = context_->backend->largest_size();
@@ -25,8 +26,8 @@ void brume_host_t::check_frame(const brume_frame &frame) const
             throw Error(BRUME_ERROR_FORMAT, fmt::format("{}: {} x {}; the plan was made for {} x {}", what, image->width,
                                                         image->height, format_.width, format_.height));
         if (image->channels > most_channels)
-            throw Error(BRUME_ERROR_ARGUMENT,
-                        fmt::format("{}.channels: {}; expected 1{}", what, image->channels, most_channels > 1 ? " to 4" : ""));
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.channels: {}; expected 1{}", what, image->channels,
+                                                          most_channels > 1 ? " to 4" : ""));
         if (image->origin != frame.color->origin)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.origin: differs from color.origin", what));
         context_->backend->check(*image, what, writable);
@@ -34,8 +35,8 @@ void brume_host_t::check_frame(const brume_frame &frame) const
     check(frame.color, "color", false, 4);
     check(frame.output, "output", true, 4);
     if (frame.output->channels != frame.color->channels)
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("output.channels: {}; expected those of color, {}", frame.output->channels,
-                                                      frame.color->channels));
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("output.channels: {}; expected those of color, {}",
+                                                      frame.output->channels, frame.color->channels));
     if (!does_nothing())
         check(frame.depth, "depth", false, 1);
     layers_.check(frame, scene_.lights.size());

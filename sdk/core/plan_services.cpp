@@ -28,7 +28,8 @@ Pass *pass_of_rehearsal()
 uint32_t brume_host_t::made(std::string_view product) const
 {
     if (product == "density_rgb")
-        return layers_.has_input("optical_depth") || layers_.has_input("transmittance") ? BRUME_MADE_EARLIER : BRUME_MADE_NOWHERE;
+        return layers_.has_input("optical_depth") || layers_.has_input("transmittance") ? BRUME_MADE_EARLIER
+                                                                                        : BRUME_MADE_NOWHERE;
     if (HostProducts::makes(product))
         return BRUME_MADE_EARLIER;
     bool passed = false;
@@ -72,8 +73,8 @@ brume_plugin_image brume_host_t::create_image(const char *label, int32_t width, 
     int32_t largest = context_->backend->largest_size();
     if (width < 1 || height < 1 || width > largest || height > largest || (channels != 1 && channels != 2 && channels != 4))
         throw Error(BRUME_ERROR_ARGUMENT,
-                    fmt::format("image {}: {} x {} x {}; expected sides from 1 to {} and 1, 2 or 4 channels", label ? label : "?",
-                                width, height, channels, largest));
+                    fmt::format("image {}: {} x {} x {}; expected sides from 1 to {} and 1, 2 or 4 channels",
+                                label ? label : "?", width, height, channels, largest));
     if (rehearsal_)
         return image_of_rehearsal();
     try {
@@ -127,7 +128,8 @@ void brume_host_t::publish(const char *product, const brume_plugin_image *images
     if (!product || (!images && image_count > 0))
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("publish: {} is NULL", product ? "images" : "product"));
     if (current_ && !is_made_by(*current_, product))
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("publish: {} is not among what the effect's table says it makes", product));
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("publish: {} is not among what the effect's table says it makes", product));
     products_.publish(product, images, image_count, count, revision);
 }
 

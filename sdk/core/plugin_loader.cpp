@@ -162,7 +162,8 @@ std::vector<Parameter> copy_parameters(const brume_effect &table)
 {
     std::vector<Parameter> parameters;
     for_infos(table.parameters, table.parameter_count, most_parameters, "parameters",
-              brume_parameter_info BRUME_PARAMETER_INFO_INIT, [&](const brume_parameter_info &info, const std::string &index) {
+              brume_parameter_info BRUME_PARAMETER_INFO_INIT,
+              [&](const brume_parameter_info &info, const std::string &index) {
                   Parameter parameter = copy_parameter(info, index);
                   for (const Parameter &earlier : parameters)
                       if (earlier.name == parameter.name)

@@ -27,8 +27,12 @@ public:
 
     static brume_plugin_product seen(const Product &product)
     {
-        return {sizeof(brume_plugin_product), uint32_t(product.images.size()), product.images.data(), product.revision,
-                product.count, 0};
+        return {sizeof(brume_plugin_product),
+                uint32_t(product.images.size()),
+                product.images.data(),
+                product.revision,
+                product.count,
+                0};
     }
 
 private:

@@ -55,8 +55,8 @@ Scene with_offer(Scene scene, const Effect &effect, const Offer &offer)
     return scene;
 }
 
-Option rehearsed(const std::shared_ptr<Context> &context, const Scene &scene, const Format &format,
-                 const Effect &effect, const Offer &offer)
+Option rehearsed(const std::shared_ptr<Context> &context, const Scene &scene, const Format &format, const Effect &effect,
+                 const Offer &offer)
 {
     const brume_host_t rehearsal(context, with_offer(scene, effect, offer), format, Purpose::rehearsal);
     Option option{offer};

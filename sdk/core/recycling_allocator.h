@@ -5,8 +5,8 @@
 
 namespace brume {
 
-// Small blocks that come and go with every frame (control blocks of images, nodes of lists): the last ones given back are kept, so
-// that frames allocate nothing once warm.
+// Small blocks that come and go with every frame (control blocks of images, nodes of lists): the last ones given back are
+// kept, so that frames allocate nothing once warm.
 template <size_t size, size_t alignment> class RecycledBlocks {
 public:
     static void *take() noexcept

@@ -131,7 +131,7 @@ struct Scene {
     Environment environment;
     std::vector<EffectSettings> effects;  // those that the file or a call set
     Quality quality;
-    bool effects_named = false;           // the file names its effects: what the content needs is not added to them
+    bool effects_named = false;  // the file names its effects: what the content needs is not added to them
 
     bool animated() const;
 };

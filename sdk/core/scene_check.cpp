@@ -118,12 +118,14 @@ void check_shadow(const Light &light, const std::string &name)
     if (shadow.kind != (parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE) && (parallel || !around))
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("{}.shadow_kind: {}; expected BRUME_SHADOW_NONE or {}", name, shadow.kind,
-                                parallel ? "_ORTHOGRAPHIC for a directional light" : "_PERSPECTIVE or _LATLONG for a point or spot light"));
+                                parallel ? "_ORTHOGRAPHIC for a directional light"
+                                         : "_PERSPECTIVE or _LATLONG for a point or spot light"));
     if (shadow.depth != BRUME_DEPTH_PLANAR && shadow.depth != BRUME_DEPTH_RAY)
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY", name, shadow.depth));
     if (around && shadow.depth != BRUME_DEPTH_RAY)
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around", name, shadow.depth));
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around", name, shadow.depth));
     if (!around)
         check(shadow.extent, parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
     std::array<double, 16> matrix;
@@ -141,7 +143,8 @@ void check_light(const Light &light, const std::string &name)
 {
     check_shadow(light, name);
     if (light.surfaces > BRUME_SURFACES_UNLIT)
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name, light.surfaces));
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name, light.surfaces));
     if (light.type > BRUME_LIGHT_DIRECTIONAL)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
     check(light.intensity, ranges::not_negative, name + ".intensity");

@@ -6,8 +6,10 @@
 
 namespace brume {
 
-#define BRUME_MEMBER(type, member, kind, components, count) \
-    {#member, kind, components, count, uint32_t(offsetof(type, member))}
+#define BRUME_MEMBER(type, member, kind, components, count)                                                                 \
+    {                                                                                                                       \
+#member, kind, components, count, uint32_t(offsetof(type, member))                                                  \
+    }
 #define BRUME_FLOATS(member, n) BRUME_MEMBER(brume_plugin_medium, member, BRUME_CONSTANT_FLOAT, n, 1)
 
 inline constexpr brume_constant medium_members[] = {

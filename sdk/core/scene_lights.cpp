@@ -23,13 +23,14 @@ void evaluate_shadow(const LightShadow &shadow, const Pose &pose, const FrameVal
         return;
     const bool perspective = shadow.kind == BRUME_SHADOW_PERSPECTIVE;
     const bool around = shadow.kind == BRUME_SHADOW_LATLONG;
-    const double extent = around ? 1.0
-                                 : values.get(shadow.extent, perspective ? ranges::shadow_angle : ranges::positive,
-                                              name.of(".shadow_extent"));
+    const double extent =
+        around ? 1.0
+               : values.get(shadow.extent, perspective ? ranges::shadow_angle : ranges::positive, name.of(".shadow_extent"));
     std::array<double, 16> to_world;
     for (size_t i = 0; i < 16; ++i)
         to_world[i] = values.get(shadow.to_world[i], ranges::any, name.of(".shadow_to_world"));
-    // Axis by axis of the map's camera. Positions are subtracted before anything is rounded: both may be far from the origin.
+    // Axis by axis of the map's camera. Positions are subtracted before anything is rounded: both may be far from the
+    // origin.
     for (size_t axis = 0; axis < 3; ++axis) {
         std::array<double, 3> along;
         double from_map = 0;

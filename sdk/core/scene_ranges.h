@@ -31,7 +31,7 @@ inline constexpr Range positive{1e-30, huge};
 inline constexpr Range fraction{0.0, 1.0};
 inline constexpr Range asymmetry{-1.0, 1.0};
 inline constexpr Range droplet_diameter{5.0, 50.0};         // [um]; the domain of the fit
-inline constexpr Range shadow_angle{1e-6, 3.141592};          // [rad]
+inline constexpr Range shadow_angle{1e-6, 3.141592};        // [rad]
 inline constexpr Range field_of_view{0.0, 180.0, true};     // [degrees]
 inline constexpr Range spot_angle{0.0, 3.141592653589793};  // [rad]; of the whole cone
 inline constexpr Range spot_degrees{0.0, 180.0};

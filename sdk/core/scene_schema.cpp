@@ -152,8 +152,9 @@ Json lights()
                                     "That its light has come through the constant density; scene units; 0 by default");
     auto shadow = [](const char *extent, const Json &schema) {
         return described(
-            object_of({{"file", described({{"type", "string"}}, "Depth picture, relative to the scene file; one per frame with %04d "
-                                                                "or #### in its name")},
+            object_of({{"file",
+                        described({{"type", "string"}}, "Depth picture, relative to the scene file; one per frame with %04d "
+                                                        "or #### in its name")},
                        {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
                                                      "Of the camera that took it; row-major; rigid; looks down -z, +y up")},
                        {extent, schema},
@@ -162,8 +163,9 @@ Json lights()
             "Shadow map: the scene's depth as seen from the light");
     };
     const Json around = described(
-        object_of({{"file", described({{"type", "string"}}, "Picture of distances, relative to the scene file; one per frame with %04d or "
-                                                            "#### in its name")},
+        object_of({{"file", described({{"type", "string"}},
+                                      "Picture of distances, relative to the scene file; one per frame with %04d or "
+                                      "#### in its name")},
                    {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
                                                  "The middle of the picture looks down its -z, +y is up; row-major; rigid")},
                    {"projection", {{"const", "latlong"}}}},
@@ -172,37 +174,37 @@ Json lights()
     const Json seen = shadow("vertical_fov", described(reference("field_of_view"), "Of the map's height [degrees]")),
                perspective{{"oneOf", Json::array({seen, around})}},
                parallel = shadow("orthographic_width", described(number(ranges::positive), "Of the map; scene units"));
-    const Json surfaces = described({{"type", "boolean"}}, "false: nothing of what surfaces show is this light's; true by default"),
+    const Json surfaces =
+                   described({{"type", "boolean"}}, "false: nothing of what surfaces show is this light's; true by default"),
                group = described({{"type", "string"}, {"minLength", 1}},
                                  "Layer that has this light's share of the picture, as renderers' light groups do");
-    const Json kinds = Json::array(
-        {object_of({{"type", type_of_point},
-                    {"position", position},
-                    {"intensity", radiant},
-                    {"radius", radius},
-                    {"shadow", perspective},
-                    {"surfaces", surfaces},
-                    {"group", group}},
-                   {"type", "position", "intensity"}),
-         object_of({{"type", type_of_spot},
-                    {"position", position},
-                    {"direction", direction},
-                    {"intensity", radiant},
-                    {"radius", radius},
-                    {"angle", angle},
-                    {"penumbra", penumbra},
-                    {"shadow", perspective},
-                    {"surfaces", surfaces},
-                    {"group", group}},
-                   {"type", "position", "direction", "intensity"}),
-         object_of({{"type", type_of_sun},
-                    {"direction", direction},
-                    {"intensity", irradiance},
-                    {"distance", distance},
-                    {"shadow", parallel},
-                    {"surfaces", surfaces},
-                    {"group", group}},
-                   {"type", "direction", "intensity"})});
+    const Json kinds = Json::array({object_of({{"type", type_of_point},
+                                               {"position", position},
+                                               {"intensity", radiant},
+                                               {"radius", radius},
+                                               {"shadow", perspective},
+                                               {"surfaces", surfaces},
+                                               {"group", group}},
+                                              {"type", "position", "intensity"}),
+                                    object_of({{"type", type_of_spot},
+                                               {"position", position},
+                                               {"direction", direction},
+                                               {"intensity", radiant},
+                                               {"radius", radius},
+                                               {"angle", angle},
+                                               {"penumbra", penumbra},
+                                               {"shadow", perspective},
+                                               {"surfaces", surfaces},
+                                               {"group", group}},
+                                              {"type", "position", "direction", "intensity"}),
+                                    object_of({{"type", type_of_sun},
+                                               {"direction", direction},
+                                               {"intensity", irradiance},
+                                               {"distance", distance},
+                                               {"shadow", parallel},
+                                               {"surfaces", surfaces},
+                                               {"group", group}},
+                                              {"type", "direction", "intensity"})});
     return {{"type", "array"}, {"maxItems", BRUME_MAX_LIGHTS}, {"items", {{"oneOf", kinds}}}};
 }
 

@@ -37,9 +37,10 @@ Structure::Structure(const Scene &scene, const Format &format)
     if (!scene.medium)
         return;
     const Medium &medium = *scene.medium;
-    static const char *const names[] = {"medium.scattering[0] above 0", "medium.scattering[1] above 0", "medium.scattering[2] above 0",
-                                        "medium.absorption[0] above 0", "medium.absorption[1] above 0", "medium.absorption[2] above 0",
-                                        "medium.emission[0] above 0",   "medium.emission[1] above 0",   "medium.emission[2] above 0"};
+    static const char *const names[] = {
+        "medium.scattering[0] above 0", "medium.scattering[1] above 0", "medium.scattering[2] above 0",
+        "medium.absorption[0] above 0", "medium.absorption[1] above 0", "medium.absorption[2] above 0",
+        "medium.emission[0] above 0",   "medium.emission[1] above 0",   "medium.emission[2] above 0"};
     const Number3 *const values[] = {&medium.scattering, &medium.absorption, &medium.emission};
     for (size_t i = 0; i < 9; ++i)
         add(names[i], peak((*values[i / 3])[i % 3]) > 0 || (i < 3 && medium.visibility));

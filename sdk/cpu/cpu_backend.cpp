@@ -128,8 +128,9 @@ public:
     std::shared_ptr<Pass> create_pass(const brume_pass_desc &desc, PassLayout layout) override
     {
         if (!desc.rows)
-            throw Error(BRUME_ERROR_UNSUPPORTED, "pass \"" + layout.name +
-                                                     "\" has no function for rows; the CPU backend needs one, OpenGL runs its shader");
+            throw Error(BRUME_ERROR_UNSUPPORTED,
+                        "pass \"" + layout.name +
+                            "\" has no function for rows; the CPU backend needs one, OpenGL runs its shader");
         auto pass = std::make_shared<CpuPass>();
         pass->layout = std::move(layout);
         pass->function = desc.rows;
@@ -218,7 +219,7 @@ public:
         auto &pass = static_cast<CpuPass &>(described);
         for (size_t i = 0; i < pass.pixels.size(); ++i)
             pass.pixels[i] = images[i] ? pixels(*images[i]) : brume_plugin_pixels{};
-        const brume_plugin_rows call{sizeof call,         width, height,   uint32_t(pass.pixels.size()),
+        const brume_plugin_rows call{sizeof call,        width,     height, uint32_t(pass.pixels.size()),
                                      pass.pixels.data(), constants, &scene, user};
         // Blocks are fixed by grain alone and never by the number of threads, so an effect that sums over its block
         // gives the same bits on any machine.

@@ -68,10 +68,9 @@ struct Constants {
 PassLayout layout()
 {
     static constexpr brume_slot slots[] = {{"source", BRUME_ACCESS_FETCH, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
-    static constexpr brume_constant constants[] = {
-        // GLSL's bool is set by an integer.
-        {"spread", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, spread)},
-        {"rounding", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, rounding)}};
+    static constexpr brume_constant constants[] = {// GLSL's bool is set by an integer.
+                                                   {"spread", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, spread)},
+                                                   {"rounding", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, rounding)}};
     brume_pass_desc desc{};
     desc.struct_size = sizeof desc;
     desc.name = "convert";
@@ -102,7 +101,7 @@ bool is_packed(GLenum format)
     return format == GL_R11F_G11F_B10F || format == GL_RGB10_A2;
 }
 
-Converter::Converter(std::shared_ptr<Disposal> disposal) 
+Converter::Converter(std::shared_ptr<Disposal> disposal)
     : pass_(std::make_shared<GlProgram>("brume/convert", source, "", std::move(disposal)), layout())
 {
 }

@@ -264,8 +264,8 @@ void GlBackend::flush()
     pool_->age();
 }
 
-brume_status GlBackend::run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
-                            const brume_plugin_scene &scene, void *, const Watch *)
+brume_status GlBackend::run(Pass &pass, const brume_plugin_image *images, const void *constants, int32_t width,
+                            int32_t height, const brume_plugin_scene &scene, void *, const Watch *)
 {
     static_cast<GlPass &>(pass).run(images, constants, width, height, scene, samplers_, device_.guard());
     return BRUME_OK;

@@ -65,9 +65,10 @@ std::shared_ptr<GlImage> ImagePool::take(int32_t width, int32_t height, int32_t 
     if (width < 1 || height < 1)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("an image of {} x {}; expected at least 1 x 1", width, height));
     if (width > largest_size_ || height > largest_size_)
-        throw Error(BRUME_ERROR_UNSUPPORTED,
-                    fmt::format("an image of {} x {} is larger than this device's textures, which have at most {} pixels a side", width,
-                                height, largest_size_));
+        throw Error(
+            BRUME_ERROR_UNSUPPORTED,
+            fmt::format("an image of {} x {} is larger than this device's textures, which have at most {} pixels a side",
+                        width, height, largest_size_));
 
     std::unique_ptr<GlImage> image =
         idle_.take([&](const GlImage &one) { return one.width == width && one.height == height && one.format == format; });

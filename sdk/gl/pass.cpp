@@ -83,7 +83,8 @@ GlPass::GlPass(std::shared_ptr<GlProgram> program, PassLayout described)
 void GlPass::find_slots()
 {
     for (const auto &[name, declared] : program_->slots()) {
-        const auto found = std::find_if(layout.slots.begin(), layout.slots.end(), [&](auto &slot) { return slot.name == name; });
+        const auto found =
+            std::find_if(layout.slots.begin(), layout.slots.end(), [&](auto &slot) { return slot.name == name; });
         if (found == layout.slots.end())
             refuse(*program_, "declares {} {}, which is not among the slots of pass \"{}\"",
                    declared.image ? "image2D" : "sampler2D", name, layout.name);
@@ -98,14 +99,14 @@ void GlPass::find_slots()
 void GlPass::find_constants()
 {
     for (const auto &[name, uniform] : program_->uniforms()) {
-        const auto found =
-            std::find_if(layout.constants.begin(), layout.constants.end(), [&](auto &constant) { return constant.name == name; });
+        const auto found = std::find_if(layout.constants.begin(), layout.constants.end(),
+                                        [&](auto &constant) { return constant.name == name; });
         if (found == layout.constants.end())
             refuse(*program_, "declares {} {}, which is not among the constants of pass \"{}\"", type_text(uniform), name,
                    layout.name);
         if (!holds(uniform, found->type, found->components))
-            refuse(*program_, "declares {} as {}; pass \"{}\" has {} of {} components there", name, type_text(uniform), layout.name,
-                   found->type == BRUME_CONSTANT_FLOAT ? "floats" : "ints", found->components);
+            refuse(*program_, "declares {} as {}; pass \"{}\" has {} of {} components there", name, type_text(uniform),
+                   layout.name, found->type == BRUME_CONSTANT_FLOAT ? "floats" : "ints", found->components);
         // Compilers shorten arrays to what is used.
         GlProgram::Uniform set = uniform;
         set.size = std::min(GLint(found->count), uniform.size);

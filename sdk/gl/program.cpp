@@ -153,9 +153,10 @@ void GlProgram::take_host_uniform(const std::string &name, const Uniform &unifor
         output_limit_ = uniform;
     else if (!member_of("brume_medium.", medium_members, medium_members_) &&
              !member_of("brume_camera.", camera_members, camera_members_))
-        throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\": uniform " + name +
-                                        " is none that the host sets; expected ivec2 brume_grid, Medium brume_medium, Camera "
-                                        "brume_camera, float brume_output_limit, or a name that does not begin with brume_");
+        throw Error(BRUME_ERROR_GL,
+                    "program \"" + name_ + "\": uniform " + name +
+                        " is none that the host sets; expected ivec2 brume_grid, Medium brume_medium, Camera "
+                        "brume_camera, float brume_output_limit, or a name that does not begin with brume_");
 }
 
 void GlProgram::set(const Uniform &uniform, const void *data) const

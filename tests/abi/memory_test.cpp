@@ -13,7 +13,7 @@ using namespace client;
 namespace {
 thread_local size_t largest_allocation = size_t(-1);
 std::atomic<size_t> allocations = 0;  // on all threads
-}
+}  // namespace
 
 // The library's, too.
 void *operator new(size_t size)
@@ -80,8 +80,9 @@ TEST(TooLargePlans, SayWhatWasWantedAndHoldNothing)
 // Lights and Gaussians that stand still, seen by both effects.
 std::string lit_scene(int lights, int gaussians, const char *medium)
 {
-    std::string text = R"({"brume": 1, "camera": {"vertical_fov": 50, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}, "medium": {)" +
-                       std::string(medium) + R"(, "density": [{"type": "constant", "value": 1})";
+    std::string text =
+        R"({"brume": 1, "camera": {"vertical_fov": 50, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}, "medium": {)" +
+        std::string(medium) + R"(, "density": [{"type": "constant", "value": 1})";
     for (int i = 0; i < gaussians; ++i)
         text += R"(, {"type": "gaussian", "center": [0, )" + std::to_string(i % 7) + ", -" + std::to_string(i % 50 + 5) +
                 R"(], "scale": 1, "amplitude": 0.5})";
@@ -129,7 +130,8 @@ TEST_P(Frames, AllocateNothingOnceWarm)
     EXPECT_EQ(allocations - before, 0u) << "in ten frames";
 }
 
-// Of 4,096 lights, and of 10,000 Gaussians, that stand still. Meant to be below .02 ms; ten times as much is left to busy machines.
+// Of 4,096 lights, and of 10,000 Gaussians, that stand still. Meant to be below .02 ms; ten times as much is left to busy
+// machines.
 TEST_P(Frames, ThatDoNothingCostNothing)
 {
     for (const auto &[lights, gaussians] : {std::pair(4096, 0), std::pair(1, 10000)}) {
@@ -139,7 +141,8 @@ TEST_P(Frames, ThatDoNothingCostNothing)
         ASSERT_EQ(brume_plan_get_info(plan.get(), &info), BRUME_OK);
         ASSERT_EQ(info.does_nothing, 1u);
         Picture color(1, 1), depth(1, 1, {.channels = 1}), output(1, 1);
-        EXPECT_LT(milliseconds(plan.get(), color, depth, output, 50), 0.2) << lights << " lights, " << gaussians << " Gaussians";
+        EXPECT_LT(milliseconds(plan.get(), color, depth, output, 50), 0.2)
+            << lights << " lights, " << gaussians << " Gaussians";
     }
 }
 

@@ -1,4 +1,5 @@
-// Effects that misbehave when they end or settle, and one that counts overlapping calls: one library per case, named by TEST_CASE.
+// Effects that misbehave when they end or settle, and one that counts overlapping calls: one library per case, named by
+// TEST_CASE.
 #include <atomic>
 #include <chrono>
 #include <stdexcept>

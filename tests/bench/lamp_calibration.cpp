@@ -1,6 +1,6 @@
-// lamp_calibration [--quick]: shaders/lib/lamp_field.glsl and airlight_orders.glsl against Monte Carlo: how far off are the fluence and the mean
-// cosine of a lamp's scattered light, the source that it makes toward a camera, and what a black plane leaves of it. Seeded;
-// the same on every run.
+// lamp_calibration [--quick]: shaders/lib/lamp_field.glsl and airlight_orders.glsl against Monte Carlo: how far off are the
+// fluence and the mean cosine of a lamp's scattered light, the source that it makes toward a camera, and what a black plane
+// leaves of it. Seeded; the same on every run.
 #include <cstdio>
 #include <cstring>
 
@@ -96,7 +96,8 @@ void over_ground(int photons)
 
 void in_rooms(int photons)
 {
-    printf("\nBetween black walls, the nearest at s' h: relative errors of the fluence of what has touched none, where the Monte Carlo is "
+    printf("\nBetween black walls, the nearest at s' h: relative errors of the fluence of what has touched none, where the "
+           "Monte Carlo is "
            "better than 10 %%.\n"
            "room           g    s'h  points     rms   worst\n");
     for (const Room &room : rooms)

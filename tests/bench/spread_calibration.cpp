@@ -70,7 +70,8 @@ double scattered_again(const Medium &m, double gamma, int paths, unsigned seed)
                 const dvec3 way = light - x;
                 const double d2 = glm::dot(way, way), distance = std::sqrt(d2);
                 // Bounded within a hundredth of the distance, which holds a millionth of the light.
-                sum += weight * m.phase(glm::dot(way, d) / distance) * std::exp(-m.extinction() * distance) / std::max(d2, 1e-4);
+                sum += weight * m.phase(glm::dot(way, d) / distance) * std::exp(-m.extinction() * distance) /
+                       std::max(d2, 1e-4);
             }
             const double xi = uniform(random);
             const double s = m.g == 0 ? 0 : (1 - m.g * m.g) / (1 - m.g + 2 * m.g * xi);
@@ -95,9 +96,11 @@ int main(int argc, char **argv)
         return 2;
     const int paths = argc > 2 ? std::atoi(argv[2]) : 100000;
     std::ofstream out(argv[1]);
-    fmt::print(out, "#pragma once\n"
-                    "// log(gamma F(gamma)) by Monte Carlo, made by tests/bench/spread_calibration.cpp with {} paths a value.\n\n"
-                    "namespace multiscatter {{\n\n", paths);
+    fmt::print(out,
+               "#pragma once\n"
+               "// log(gamma F(gamma)) by Monte Carlo, made by tests/bench/spread_calibration.cpp with {} paths a value.\n\n"
+               "namespace multiscatter {{\n\n",
+               paths);
     auto axis = [&](const char *name, auto &values, const char *what) {
         fmt::print(out, "constexpr double {}[] = {{{}}};  // {}\n", name, fmt::join(values, ", "), what);
     };

@@ -23,12 +23,13 @@ protected:
             "camera_to_world": [[1,0,0,0], [0,0,1,3], [0,-1,0,-5], [0,0,0,1]]})";
         write_text(folder_ / "fog.json", R"({"brume":1, "medium": {"scattering": 0.05},
             "camera": {"vertical_fov": 60, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
-            "lights": [{"type": "point", "position": [0,3,-5], "intensity": 50)" + more +
-                                             R"(}], "effects": {"airlight": {}}})");
+            "lights": [{"type": "point", "position": [0,3,-5], "intensity": 50)" +
+                                             more + R"(}], "effects": {"airlight": {}}})");
         return folder_ / "fog.json";
     }
     /// The left half of what the lamp sees is at `left`.
-    void write_map(const std::string &name, double left, Imf::PixelType type = Imf::FLOAT, const std::string &channel = "Z") const
+    void write_map(const std::string &name, double left, Imf::PixelType type = Imf::FLOAT,
+                   const std::string &channel = "Z") const
     {
         write_exr(folder_ / name, {{{{channel, type, [left](int x, int) { return x < kWidth / 2 ? left : kNothing; }}}}});
     }
@@ -86,7 +87,8 @@ TEST_F(Shadows, ComeWithTheFrameFromTheLayerThatIsNamed)
     ASSERT_EQ(r.status, 0) << r.err;
     EXPECT_NE(read_plane(folder_ / "fog.0001.exr", "G"), read_plane(folder_ / "fog.0002.exr", "G"));
 
-    const Result plan = brume({"plan", scene("key.####.exr:key.depth").string(), (folder_ / "shot.####.exr").string(), "--json"});
+    const Result plan =
+        brume({"plan", scene("key.####.exr:key.depth").string(), (folder_ / "shot.####.exr").string(), "--json"});
     ASSERT_EQ(plan.status, 0) << plan.err;
     const std::string said = nlohmann::json::parse(plan.out)["inputs"]["shadow0"];
     EXPECT_NE(said.find("key.0001.exr:key.depth: the scene's lights[0].shadow.file"), std::string::npos) << said;

@@ -118,8 +118,9 @@ inline Case droplets(Dice &dice)
 {
     Case c = homogeneous(dice, dice.uniform(0.5, 120) * degree, dice.logarithmic(0.1, 4));
     const double d = dice.uniform(5, 50);
-    c.medium.phase = vec4(float(std::exp(-.0990567 / (d - 1.67154))), float(std::exp(-2.20679 / (d + 3.91029) - .428934)),
-                          float(std::exp(3.62489 - 8.29288 / (d + 5.52825))), float(std::exp(-.599085 / (d - .641583) - .665888)));
+    c.medium.phase =
+        vec4(float(std::exp(-.0990567 / (d - 1.67154))), float(std::exp(-2.20679 / (d + 3.91029) - .428934)),
+             float(std::exp(3.62489 - 8.29288 / (d + 5.52825))), float(std::exp(-.599085 / (d - .641583) - .665888)));
     return c;
 }
 
@@ -145,7 +146,8 @@ inline Case spot(Dice &dice)
     l.cos_inner = float(std::cos(half * (1 - dice.uniform(0.05, 0.6))));
     // Mostly such that the ray is lit.
     const double t = glm::dot(l.position, c.direction) * dice.uniform(0, 1.5);
-    l.direction = rounded(dice.near_direction(glm::normalize(std::max(t, 0.5) * c.direction - l.position), half * dice.uniform(0, 1)));
+    l.direction =
+        rounded(dice.near_direction(glm::normalize(std::max(t, 0.5) * c.direction - l.position), half * dice.uniform(0, 1)));
     return c;
 }
 
@@ -221,11 +223,13 @@ inline Case shadowing(Dice &dice)
         const int n = dice.count(1, 4);
         const double light = glm::length(c.lights[0].position);
         for (int i = 0; i < n; ++i)
-            c.gaussians.push_back(on_ray(dice, c, light * dice.uniform(0.2, 1.5), light * dice.logarithmic(0.03, 0.2), dice.logarithmic(0.1, 3)));
+            c.gaussians.push_back(on_ray(dice, c, light * dice.uniform(0.2, 1.5), light * dice.logarithmic(0.03, 0.2),
+                                         dice.logarithmic(0.1, 3)));
         const size_t seen = c.gaussians.size();
         for (size_t i = 0; i < seen; ++i) {
             Gaussian g = c.gaussians[i];
-            g.center = rounded(mix(g.center, c.lights[0].position, dice.uniform(0.3, 0.7)) + dice.uniform(0, 1) / g.scale * dice.direction());
+            g.center = rounded(mix(g.center, c.lights[0].position, dice.uniform(0.3, 0.7)) +
+                               dice.uniform(0, 1) / g.scale * dice.direction());
             g.amplitude = float(g.amplitude * dice.uniform(0.2, 1.5));
             c.gaussians.push_back(g);
         }
@@ -267,7 +271,7 @@ struct Regime {
     std::string name;
     std::function<Case(Dice &)> make;
     Kind kind;
-    int published;  // the tier of the papers that is meant for it: 0 sun, 1 fogshop, -1 none
+    int published;      // the tier of the papers that is meant for it: 0 sun, 1 fogshop, -1 none
     int rays = 100000;  // of a full measurement
 };
 

@@ -68,7 +68,9 @@ TEST(AirlightMaths, GaussianIntegralsAndMomentsAgreeWithQuadrature)
         const f64::Gaussian g = random_gaussian(dice, direction);
         const double distance = dice.logarithmic(0.01, 30) / g.scale;
         const f64::Profile p = f64::profile_along(g, f64::vec3(0), direction);
-        auto rho = [&](double t) { return g.amplitude * std::exp(-std::pow(g.scale * glm::length(t * direction - g.center), 2)); };
+        auto rho = [&](double t) {
+            return g.amplitude * std::exp(-std::pow(g.scale * glm::length(t * direction - g.center), 2));
+        };
         const double exact = simpson(rho, 0, distance, 2000), whole = p.peak / p.scale * std::sqrt(pi);
         const double moment = simpson([&](double t) { return rho(t) * std::pow(1 - t / distance, 2); }, 0, distance, 2000);
         const f32::Gaussian n = narrowed(g);
@@ -77,7 +79,9 @@ TEST(AirlightMaths, GaussianIntegralsAndMomentsAgreeWithQuadrature)
         // The exponents' rounding grows with how far out on the flank the ray passes and begins.
         const double exponent = 1 + std::pow(g.scale * glm::length(g.center), 2);
         worst_integral = std::max(worst_integral, std::abs(found / exact - 1) / exponent);
-        worst_depth = std::max(worst_depth, std::abs(f32::profile_depth(f32::profile_along(n, f32::vec3(0), d), 0, float(distance)) - exact) / whole / exponent);
+        worst_depth = std::max(
+            worst_depth, std::abs(f32::profile_depth(f32::profile_along(n, f32::vec3(0), d), 0, float(distance)) - exact) /
+                             whole / exponent);
         const f32::vec2 both = f32::gaussian_density_moment(n, d, float(distance));
         worst_integral = std::max(worst_integral, std::abs(both.x / exact - 1) / exponent);
         worst_moment = std::max(worst_moment, std::abs(both.y - moment) / exact / exponent);
@@ -95,7 +99,8 @@ TEST(AirlightMaths, GaussianIntegralsAreFiniteAtTheExtremes)
                 for (float away : {0.0f, 1e-6f, 1.0f, 1e6f, 1e15f}) {
                     const f32::Gaussian g{f32::vec3(away, 0.3f * away, -away), scale, amplitude, f32::vec3(1)};
                     const f32::vec2 m = f32::gaussian_density_moment(g, f32::vec3(0, 0, -1), distance);
-                    const float p = f32::profile_depth(f32::profile_along(g, f32::vec3(0), f32::vec3(0, 0, -1)), 0, distance);
+                    const float p =
+                        f32::profile_depth(f32::profile_along(g, f32::vec3(0), f32::vec3(0, 0, -1)), 0, distance);
                     for (float v : {m.x, m.y, p})
                         ASSERT_TRUE(std::isfinite(v) && v >= 0 && v <= f32::density_limit)
                             << v << ": D " << distance << " a " << scale << " c " << amplitude << " b " << away;
@@ -112,7 +117,8 @@ TEST(AirlightMaths, DensityBetweenPointsAndItsMomentAgreeWithQuadrature)
         m.constant = dice.chance(0.5) ? 0 : dice.logarithmic(0.01, 10);
         m.term_count = dice.count(0, 3);
         for (int k = 0; k < m.term_count; ++k)
-            m.terms[k] = f64::vec4(airlight_cases::rounded(dice.logarithmic(1e-4, 1) * dice.direction()), dice.uniform(-2, 2));
+            m.terms[k] =
+                f64::vec4(airlight_cases::rounded(dice.logarithmic(1e-4, 1) * dice.direction()), dice.uniform(-2, 2));
         const f64::vec3 origin = airlight_cases::rounded(dice.uniform(0, 5) * dice.direction());
         const f64::vec3 direction = airlight_cases::rounded(dice.direction());
         const double distance = dice.logarithmic(1e-3, 30);
@@ -128,11 +134,14 @@ TEST(AirlightMaths, DensityBetweenPointsAndItsMomentAgreeWithQuadrature)
         const double between = simpson(rho(origin), 0, distance, 400);
         if (between == 0)
             continue;
-        const double found = f32::density_between(n, f32::vec3(origin), f32::vec3(direction), float(distance), float(distance));
+        const double found =
+            f32::density_between(n, f32::vec3(origin), f32::vec3(direction), float(distance), float(distance));
         worst_between = std::max(worst_between, std::abs(found / between - 1));
         auto density = rho(f64::vec3(0));
-        const double moment = simpson([&](double t) { return density(t) * std::pow(1 - t / distance, 2); }, 0, distance, 400);
-        worst_moment = std::max(worst_moment, std::abs(f32::density_moment(n, f32::vec3(direction), float(distance)) / moment - 1));
+        const double moment =
+            simpson([&](double t) { return density(t) * std::pow(1 - t / distance, 2); }, 0, distance, 400);
+        worst_moment =
+            std::max(worst_moment, std::abs(f32::density_moment(n, f32::vec3(direction), float(distance)) / moment - 1));
         EXPECT_NEAR(f32::density_at(n, f32::vec3(origin)), rho(origin)(0), 1e-5 * rho(origin)(0));
     }
     EXPECT_LT(worst_between, 1e-5) << "its exponent reaches 30";
@@ -197,7 +206,8 @@ TEST(AirlightMaths, ConesAreClippedWhereTheirFactorEnds)
             if (std::abs(cosine - l.cos_outer) < 1e-3f)
                 continue;
             const bool inside = cosine > l.cos_outer;
-            ASSERT_EQ(inside, t >= part.x && t <= part.y) << angle << " degrees, t " << t << " of " << part.x << " to " << part.y;
+            ASSERT_EQ(inside, t >= part.x && t <= part.y)
+                << angle << " degrees, t " << t << " of " << part.x << " to " << part.y;
             ++(inside ? lit : dark);
         }
     }
@@ -239,19 +249,24 @@ TEST(AirlightTables, ReferenceAgreesWithTheClosedFormOfHomogeneousMedia)
     double worst = 0;
     int compared = 0;
     while (compared < 150) {
-        airlight_cases::Case c = airlight_cases::homogeneous(dice, dice.uniform(0.05, 179.9) * airlight_cases::degree, dice.logarithmic(0.001, 8));
+        airlight_cases::Case c = airlight_cases::homogeneous(dice, dice.uniform(0.05, 179.9) * airlight_cases::degree,
+                                                             dice.logarithmic(0.001, 8));
         c.direction = glm::normalize(c.direction);
         c.distance = std::min(c.distance, 1e6);
         c.medium.absorption = f64::vec3(0);
         const f64::Light &l = c.lights[0];
         const f64::Aspect aspect = f64::aspect_of(l, c.direction);
-        const double h = aspect.height, beta = c.medium.scattering.x, near = std::hypot(aspect.foot, h), w = c.distance - aspect.foot, far = std::hypot(w, h);
+        const double h = aspect.height, beta = c.medium.scattering.x, near = std::hypot(aspect.foot, h),
+                     w = c.distance - aspect.foot, far = std::hypot(w, h);
         auto steepness = [h](double w) { return w < 0 ? h / (std::hypot(w, h) - w) : (w + std::hypot(w, h)) / h; };
         auto im = [&](double x) { return brume::airlight::scaled_exponential_integral({beta * h * x, beta * h}).imag(); };
-        const double exact = beta / (2 * pi * h) * (std::exp(-beta * (c.distance + far)) * im(steepness(w)) - std::exp(-beta * near) * im(steepness(-aspect.foot)));
+        const double exact =
+            beta / (2 * pi * h) *
+            (std::exp(-beta * (c.distance + far)) * im(steepness(w)) - std::exp(-beta * near) * im(steepness(-aspect.foot)));
         if (exact < 1e-20)
             continue;
-        const auto found = brume::airlight::reference_airlight({c.medium, {}, c.lights}, c.direction, c.distance, 0, 1, 1e-11);
+        const auto found =
+            brume::airlight::reference_airlight({c.medium, {}, c.lights}, c.direction, c.distance, 0, 1, 1e-11);
         worst = std::max(worst, std::abs(found.radiance.x / exact - 1));
         ++compared;
     }
@@ -273,7 +288,8 @@ TEST(AirlightTables, SunTableIsTheImaginaryPartOfAnExponentialIntegral)
     double worst = 0;
     for (double u = 0; u <= 10; u += 0.037)
         for (double v = 0; v <= pi / 2; v += 0.0173) {
-            const double error = std::abs(f32::sun_function(image, float(u), float(v)) - brume::airlight::sun_function(u, v));
+            const double error =
+                std::abs(f32::sun_function(image, float(u), float(v)) - brume::airlight::sun_function(u, v));
             worst = std::max(worst, error);
             EXPECT_LE(error, f32::sun_function_error(float(u), float(v)) + 1e-6) << u << " " << v;
         }
@@ -286,7 +302,8 @@ TEST(AirlightTables, SpreadCoefficientsAreThoseOfThePaperAtDepthOne)
     const auto c = brume::airlight::psf_coefficients(1);
     for (size_t l = 0; l < 6; ++l)
         EXPECT_NEAR(c[l], paper[l], 2e-4 * paper[l]) << "l " << l;
-    // Other depths, from the definition by quadrature: PSF_T(g) = T e^(-T cos g) / (2 pi sin g) int_(g/2)^(pi/2) e^(-T sin g tan x) dx.
+    // Other depths, from the definition by quadrature: PSF_T(g) = T e^(-T cos g) / (2 pi sin g) int_(g/2)^(pi/2) e^(-T sin g
+    // tan x) dx.
     for (double depth : {0.05, 0.5, 4.0}) {
         auto psf_sine = [depth](double g) {
             const double u = depth * std::sin(g);
@@ -297,10 +314,14 @@ TEST(AirlightTables, SpreadCoefficientsAreThoseOfThePaperAtDepthOne)
         };
         const auto found = brume::airlight::psf_coefficients(depth);
         for (unsigned l : {0u, 1u, 5u}) {
-            const double exact = simpson([&](double x) {
-                const double g = pi * x * x;
-                return 2 * pi * x * 2 * pi * psf_sine(g) * std::sqrt((2 * l + 1) / (4 * pi)) * std::legendre(l, std::cos(g));
-            }, 0, 1, 300) / (depth * std::exp(-depth));
+            const double exact = simpson(
+                                     [&](double x) {
+                                         const double g = pi * x * x;
+                                         return 2 * pi * x * 2 * pi * psf_sine(g) * std::sqrt((2 * l + 1) / (4 * pi)) *
+                                                std::legendre(l, std::cos(g));
+                                     },
+                                     0, 1, 300) /
+                                 (depth * std::exp(-depth));
             EXPECT_NEAR(found[l], exact, 1e-4 * exact) << "T " << depth << " l " << l;
         }
     }
@@ -333,13 +354,17 @@ TEST(AirlightEnvironment, IsTheConvolutionWithTheMediumsSpread)
             for (unsigned f = l - am + 1; f <= l + am; ++f)
                 norm /= f;
             const double phi = std::atan2(world.y, world.x);
-            const double y = std::sqrt(norm) * std::assoc_legendre(l, am, world.z) * (order < 0 ? std::sin(am * phi) : std::cos(am * phi));
+            const double y = std::sqrt(norm) * std::assoc_legendre(l, am, world.z) *
+                             (order < 0 ? std::sin(am * phi) : std::cos(am * phi));
             const double p = dice.logarithmic(1e-6, 30);
             const f32::vec3 found = f32::environment_airlight(m, camera, image, table_image, 6, f32::vec3(d), float(p));
             for (int c = 0; c < 3; ++c) {
-                const double depth = (m.scattering[c] + m.absorption[c]) * p, albedo = m.scattering[c] / (m.scattering[c] + m.absorption[c]);
-                const double factor = std::sqrt(4 * pi / (2 * l + 1)) * brume::airlight::psf_coefficients(depth)[l] * depth * std::exp(-depth);
-                EXPECT_NEAR(found[c], std::max(0.0, albedo * factor * y), 3e-3 * factor) << "l " << l << " m " << order << " T " << depth;
+                const double depth = (m.scattering[c] + m.absorption[c]) * p,
+                             albedo = m.scattering[c] / (m.scattering[c] + m.absorption[c]);
+                const double factor =
+                    std::sqrt(4 * pi / (2 * l + 1)) * brume::airlight::psf_coefficients(depth)[l] * depth * std::exp(-depth);
+                EXPECT_NEAR(found[c], std::max(0.0, albedo * factor * y), 3e-3 * factor)
+                    << "l " << l << " m " << order << " T " << depth;
             }
         }
     }
@@ -364,7 +389,8 @@ TEST(AirlightShadow, ListsFindTheDensityOfAllGaussians)
         c.lights[1].direction = airlight_cases::rounded(glm::normalize(dice.direction()));
         airlight_cases::World world(c);
         for (int k = 0; k < 50; ++k) {
-            const f64::vec3 x = airlight_cases::rounded(dice.uniform(0, 2) * c.lights[0].position + dice.uniform(0, 1) * dice.direction());
+            const f64::vec3 x =
+                airlight_cases::rounded(dice.uniform(0, 2) * c.lights[0].position + dice.uniform(0, 1) * dice.direction());
             for (int l = -1; l < 2; ++l) {
                 double exact = 0, whole = 0;
                 for (const f64::Gaussian &g : c.gaussians) {

@@ -37,10 +37,12 @@ public:
     {
         const int n = int(c.gaussians.size());
         for (const Gaussian &g : c.gaussians)
-            append(gaussians_, {g.center.x, g.center.y, g.center.z, g.scale, g.amplitude, g.colour.x, g.colour.y, g.colour.z});
+            append(gaussians_,
+                   {g.center.x, g.center.y, g.center.z, g.scale, g.amplitude, g.colour.x, g.colour.y, g.colour.z});
         for (const Light &l : c.lights)
             append(lights_, {l.position.x, l.position.y, l.position.z, l.radius, l.direction.x, l.direction.y, l.direction.z,
-                             l.cos_outer, l.intensity.x, l.intensity.y, l.intensity.z, l.cos_inner, double(l.type), l.distance, 0, 0});
+                             l.cos_outer, l.intensity.x, l.intensity.y, l.intensity.z, l.cos_inner, double(l.type),
+                             l.distance, 0, 0});
         for (int i = 0; i < n; ++i)
             append(indices_, {double(i)});
         seen_ = indices_;
@@ -83,10 +85,11 @@ public:
 
     narrow::Airlight airlight(int tier)
     {
-        const narrow::Texture light_shadows = image(light_shadows_, 4), &shadow_0 = map_[0], &shadow_1 = map_[1], &shadow_2 = map_[2],
-                              &shadow_3 = map_[3];
-        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4), cell_gaussians = image(indices_, 1),
-                              shadow_origins = image(origins_, 4), lights = image(lights_, 4), tile_gaussians = image(seen_, 1);
+        const narrow::Texture light_shadows = image(light_shadows_, 4), &shadow_0 = map_[0], &shadow_1 = map_[1],
+                              &shadow_2 = map_[2], &shadow_3 = map_[3];
+        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4),
+                              cell_gaussians = image(indices_, 1), shadow_origins = image(origins_, 4),
+                              lights = image(lights_, 4), tile_gaussians = image(seen_, 1);
         if (tier == narrow::airlight_fogshop && blob_density_.empty())
             for (int i = 0; i < settings.gaussian_count * (1 + settings.light_count); ++i)
                 blob_density_.push_back(narrow::blob_density_at(medium_, camera_, settings, SHADOW_PASSED, lights, i));
@@ -100,8 +103,9 @@ public:
     // int rho dt of the Gaussians between a light (-1: the camera) and a point.
     float shadow(int light, vec3 point) const
     {
-        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4), cell_gaussians = image(indices_, 1),
-                              shadow_origins = image(origins_, 4), lights = image(lights_, 4);
+        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4),
+                              cell_gaussians = image(indices_, 1), shadow_origins = image(origins_, 4),
+                              lights = image(lights_, 4);
         if (light < 0)
             return narrow::camera_density(SHADOW_PASSED, camera_, narrow::vec3(point));
         return narrow::shadow_density(SHADOW_PASSED, camera_, light, narrow::light_at(lights, light), narrow::vec3(point));
@@ -117,8 +121,9 @@ public:
         const Data planes(surroundings_.data(), surroundings_.size() / 4, 4);
         for (size_t l = 0; l < case_.lights.size(); ++l)
             around.push_back(surroundings_of(planes.texture(), int(l)));
-        return brume::airlight::reference_airlight({case_.medium, case_.gaussians, case_.lights, camera, settings.orders, around},
-                                                   case_.direction, case_.distance, 0, int(case_.lights.size()));
+        return brume::airlight::reference_airlight(
+            {case_.medium, case_.gaussians, case_.lights, camera, settings.orders, around}, case_.direction, case_.distance,
+            0, int(case_.lights.size()));
     }
 
     narrow::AirlightSettings settings{};
@@ -142,8 +147,8 @@ private:
     std::vector<float> light_shadows_, gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_, surroundings_;
 };
 
-// Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send less
-// than 1e-12 are left out: nothing arrives. Errors of `rounding` or less are no matter for an estimate.
+// Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send
+// less than 1e-12 are left out: nothing arrives. Errors of `rounding` or less are no matter for an estimate.
 struct Errors {
     static constexpr double rounding = 2e-6;
 

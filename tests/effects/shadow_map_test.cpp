@@ -26,31 +26,33 @@ struct Above {
 
     std::array<float, 16> projection(int depth = BRUME_DEPTH_PLANAR) const
     {
-        return {1, 0, 0, float(-x), 0, 0, -1, float(z), 0, 1, 0, float(-height), float(kind), float(extent), float(depth), 0};
+        return {1, 0, 0, float(-x), 0, 0, -1, float(z), 0, 1, 0, float(-height), float(kind), float(extent), float(depth),
+                0};
     }
 };
 
 template <class Real> struct Maths;
-#define MATHS(Real, space)                                                                                                   \
-    template <> struct Maths<Real> {                                                                                         \
-        using vec3 = space::vec3;                                                                                            \
-        static std::vector<std::array<double, 2>> parts(const std::array<float, 16> &projection, const std::vector<Real> &texels, \
-                                                        int width, vec3 direction, Real end, Real row_sign = -1)             \
-        {                                                                                                                    \
-            std::vector<Real> rows(4096);                                                                                    \
-            std::copy(projection.begin(), projection.end(), rows.begin());                                                   \
-            const space::Texture light_shadows{rows.data(), 4096, 1024, 1, 4},                                               \
-                shadow_0{texels.data(), width, width, int(texels.size()) / width, 1}, shadow_1, shadow_2, shadow_3;           \
-            space::Camera camera{};                                                                                          \
-            camera.metres_per_unit = 1;                                                                                      \
-            camera.tangent_scale.y = row_sign;                                                                               \
-            const space::ShadowRay ray = space::shadow_ray(camera, SHADOW_MAP_PASSED, 0, 0, direction, end);                 \
-            std::vector<std::array<double, 2>> parts;                                                                        \
-            for (space::LitWalk walk = space::next_lit(SHADOW_MAP_PASSED, ray, space::lit_walk(0), end);                     \
-                 walk.part.x < walk.part.y; walk = space::next_lit(SHADOW_MAP_PASSED, ray, walk, end))                       \
-                parts.push_back({walk.part.x, walk.part.y});                                                                 \
-            return parts;                                                                                                    \
-        }                                                                                                                    \
+#define MATHS(Real, space)                                                                                                  \
+    template <> struct Maths<Real> {                                                                                        \
+        using vec3 = space::vec3;                                                                                           \
+        static std::vector<std::array<double, 2>> parts(const std::array<float, 16> &projection,                            \
+                                                        const std::vector<Real> &texels, int width, vec3 direction,         \
+                                                        Real end, Real row_sign = -1)                                       \
+        {                                                                                                                   \
+            std::vector<Real> rows(4096);                                                                                   \
+            std::copy(projection.begin(), projection.end(), rows.begin());                                                  \
+            const space::Texture light_shadows{rows.data(), 4096, 1024, 1, 4},                                              \
+                shadow_0{texels.data(), width, width, int(texels.size()) / width, 1}, shadow_1, shadow_2, shadow_3;         \
+            space::Camera camera{};                                                                                         \
+            camera.metres_per_unit = 1;                                                                                     \
+            camera.tangent_scale.y = row_sign;                                                                              \
+            const space::ShadowRay ray = space::shadow_ray(camera, SHADOW_MAP_PASSED, 0, 0, direction, end);                \
+            std::vector<std::array<double, 2>> parts;                                                                       \
+            for (space::LitWalk walk = space::next_lit(SHADOW_MAP_PASSED, ray, space::lit_walk(0), end);                    \
+                 walk.part.x < walk.part.y; walk = space::next_lit(SHADOW_MAP_PASSED, ray, walk, end))                      \
+                parts.push_back({walk.part.x, walk.part.y});                                                                \
+            return parts;                                                                                                   \
+        }                                                                                                                   \
     };
 MATHS(float, f32)
 MATHS(double, f64)
@@ -65,7 +67,8 @@ template <class Real> std::vector<Real> fence(std::vector<std::array<int, 2>> sl
     return texels;
 }
 
-template <class Real> class ShadowMap : public testing::Test {};
+template <class Real> class ShadowMap : public testing::Test {
+};
 using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(ShadowMap, Reals);
 
@@ -133,7 +136,8 @@ TYPED_TEST(ShadowMap, AllAroundIsAMapToo)
         for (int row = from_row; row < to_row; ++row)
             for (int column = from_column; column < to_column; ++column)
                 texels[size_t(64 * row + (column + 64) % 64)] = 2;
-        const std::array<float, 16> place{1, 0, 0, -3, 0, 1, 0, float(-y), 0, 0, 1, float(-z), BRUME_SHADOW_LATLONG, 0, BRUME_DEPTH_RAY, 0};
+        const std::array<float, 16> place{
+            1, 0, 0, -3, 0, 1, 0, float(-y), 0, 0, 1, float(-z), BRUME_SHADOW_LATLONG, 0, BRUME_DEPTH_RAY, 0};
         return M::parts(place, texels, 64, {1, 0, 0}, 20);
     };
     const double eighth = 5 * std::tan(M_PI / 8);
@@ -157,14 +161,16 @@ TYPED_TEST(ShadowMap, AllAroundIsAMapToo)
 TYPED_TEST(ShadowMap, ShadowsBeginBehindThings)
 {
     using M = Maths<TypeParam>;
-    const std::array<float, 16> planar{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, BRUME_SHADOW_PERSPECTIVE, 1, BRUME_DEPTH_PLANAR, 0};
+    const std::array<float, 16> planar{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, BRUME_SHADOW_PERSPECTIVE, 1, BRUME_DEPTH_PLANAR,
+                                       0};
     std::array<float, 16> radial = planar;
     radial[14] = BRUME_DEPTH_RAY;
     const std::vector<TypeParam> wall(128 * 128, 4);
     const double bias = 4 * 2.0 / 128;
     const typename M::vec3 ahead(0, 0, -1), aside(TypeParam(0.6), 0, TypeParam(-0.8));
     for (const auto &[projection, direction, end] :
-         {std::tuple(planar, ahead, 4 + bias), std::tuple(planar, aside, (4 + bias) / 0.8), std::tuple(radial, aside, 4 + bias)}) {
+         {std::tuple(planar, ahead, 4 + bias), std::tuple(planar, aside, (4 + bias) / 0.8),
+          std::tuple(radial, aside, 4 + bias)}) {
         const auto parts = M::parts(projection, wall, 128, direction, 1000);
         ASSERT_EQ(parts.size(), 1u);
         EXPECT_EQ(parts[0][0], 0);
@@ -186,8 +192,8 @@ TYPED_TEST(ShadowMap, SlantedSurfacesAreTight)
     sun.extent = 4;  // x from -1 to 7
     sun.height = 1.75 + 0.125 + 0.01;
     const double slope = std::atan(0.25);
-    const auto parts = M::parts(sun.projection(), texels, 64,
-                                {TypeParam(std::cos(slope)), TypeParam(-std::sin(slope)), 0}, 6.5);
+    const auto parts =
+        M::parts(sun.projection(), texels, 64, {TypeParam(std::cos(slope)), TypeParam(-std::sin(slope)), 0}, 6.5);
     EXPECT_TRUE(parts.empty()) << parts[0][0] << " to " << parts[0][1];
 }
 
@@ -197,7 +203,8 @@ TYPED_TEST(ShadowMap, MapsThatShowNothingShadowNothing)
     const TypeParam inf = std::numeric_limits<TypeParam>::infinity();
     for (TypeParam value : {TypeParam(nothing), inf, -inf, TypeParam(0), TypeParam(-1), TypeParam(1e10), TypeParam(3e38)})
         for (int width : {1, 3, 64}) {
-            const auto parts = M::parts(Above{}.projection(), std::vector<TypeParam>(size_t(width * 2), value), width, {1, 0, 0}, 20);
+            const auto parts =
+                M::parts(Above{}.projection(), std::vector<TypeParam>(size_t(width * 2), value), width, {1, 0, 0}, 20);
             ASSERT_EQ(parts.size(), 1u) << value;
             EXPECT_EQ(parts[0][0], 0);
             EXPECT_EQ(parts[0][1], 20);

@@ -29,11 +29,12 @@ Json lamp(bool shadowed)
 
 Json scene_with(const Json &lights, const Json &airlight = Json::object())
 {
-    return {{"brume", 1},
-            {"camera", {{"vertical_fov", 50}, {"camera_to_world", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}}},
-            {"medium", {{"scattering", 0.05}, {"g", 0.3}}},
-            {"lights", lights},
-            {"effects", {{"airlight", airlight}}}};
+    return {
+        {"brume", 1},
+        {"camera", {{"vertical_fov", 50}, {"camera_to_world", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}}},
+        {"medium", {{"scattering", 0.05}, {"g", 0.3}}},
+        {"lights", lights},
+        {"effects", {{"airlight", airlight}}}};
 }
 
 // Slats 1.5 m before the lamp, of another size than the frame.
@@ -79,7 +80,8 @@ void expect_refusal(const Json &scene, const std::map<std::string, Picture> &inp
 TEST(Shadows, DarkenTheFogAlikeOnAllBackends)
 {
     const Json shadowed = scene_with(Json::array({lamp(true)}));
-    const Picture without = fogged(cpu(), scene_with(Json::array({lamp(false)}))), with = fogged(cpu(), shadowed, {{"shadow", fence()}});
+    const Picture without = fogged(cpu(), scene_with(Json::array({lamp(false)}))),
+                  with = fogged(cpu(), shadowed, {{"shadow", fence()}});
     EXPECT_LT(sum(with), 0.8 * sum(without));
     EXPECT_GT(sum(with), 0.3 * sum(without));
     if (gl()) {
@@ -91,7 +93,9 @@ TEST(Shadows, AreNoneWhereMapsShowNothing)
 {
     const Picture without = fogged(cpu(), scene_with(Json::array({lamp(false)})));
     for (float value : {0.0f, -1.0f, 1e10f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
-        EXPECT_EQ(fogged(cpu(), scene_with(Json::array({lamp(true)})), {{"shadow", Picture(7, 5, 1, value)}}).data, without.data) << value;
+        EXPECT_EQ(fogged(cpu(), scene_with(Json::array({lamp(true)})), {{"shadow", Picture(7, 5, 1, value)}}).data,
+                  without.data)
+            << value;
 }
 
 TEST(Shadows, AgreeWithTheReference)
@@ -105,10 +109,13 @@ TEST(Shadows, SayWhatIsMissing)
 {
     const Json one = scene_with(Json::array({lamp(true)}));
     expect_refusal(one, {}, BRUME_ERROR_SCENE, "lights[0].shadow.file: lamp.exr");
-    expect_refusal(scene_with(Json::array({lamp(true), lamp(true)})), {{"shadow", fence()}}, BRUME_ERROR_ARGUMENT, "light 1 is missing");
-    expect_refusal(scene_with(Json::array({lamp(false), lamp(true)})), {{"shadow", fence()}}, BRUME_ERROR_ARGUMENT, "light 0 is given");
+    expect_refusal(scene_with(Json::array({lamp(true), lamp(true)})), {{"shadow", fence()}}, BRUME_ERROR_ARGUMENT,
+                   "light 1 is missing");
+    expect_refusal(scene_with(Json::array({lamp(false), lamp(true)})), {{"shadow", fence()}}, BRUME_ERROR_ARGUMENT,
+                   "light 0 is given");
     expect_refusal(scene_with(Json(5, lamp(true))), {{"shadow", fence()}}, BRUME_ERROR_UNSUPPORTED, "expected at most 4");
-    expect_refusal(scene_with(Json::array({lamp(true)}), {{"tier", "fogshop"}}), {{"shadow", fence()}}, BRUME_ERROR_UNSUPPORTED, "tier: fogshop");
+    expect_refusal(scene_with(Json::array({lamp(true)}), {{"tier", "fogshop"}}), {{"shadow", fence()}},
+                   BRUME_ERROR_UNSUPPORTED, "tier: fogshop");
 }
 
 // A march of 400 steps through the same map has relMSE .0033.

@@ -17,7 +17,8 @@ TEST(ShadowedAirlight, IsTheIntegralOverWhatIsLit)
 {
     airlight_cases::Dice dice(5);
     // Seen from above (3, 5, 0.3), 90 degrees wide: at height 5 the map spans x from -2 to 8.
-    const std::array<float, 16> projection{1, 0, 0, -3, 0, 0, -1, 0.3f, 0, 1, 0, -5, BRUME_SHADOW_PERSPECTIVE, 1, BRUME_DEPTH_PLANAR, 0};
+    const std::array<float, 16> projection{
+        1, 0, 0, -3, 0, 0, -1, 0.3f, 0, 1, 0, -5, BRUME_SHADOW_PERSPECTIVE, 1, BRUME_DEPTH_PLANAR, 0};
     std::vector<float> map(64 * 64, std::numeric_limits<float>::quiet_NaN());
     for (int i = 0; i < 64 * 64; ++i)
         if (const int column = i % 64; (column >= 20 && column < 24) || (column >= 36 && column < 48))

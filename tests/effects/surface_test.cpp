@@ -122,8 +122,8 @@ TEST_P(SurfaceOn, DroppedWhereThereIsNothingToDo)
     EXPECT_NE(run(context(), relit_scene(coloured, lamps).dump(), frame.color, frame.depth).output.data, frame.color.data);
 }
 
-// A lamp behind the camera, whose map looks the same way and has something before the left half of the wall. Where nothing but the
-// lamp is known to light the picture, nothing is known of what is in its shadow.
+// A lamp behind the camera, whose map looks the same way and has something before the left half of the wall. Where nothing
+// but the lamp is known to light the picture, nothing is known of what is in its shadow.
 TEST_P(SurfaceOn, WhatIsInALightsShadowHasNoShareOfIt)
 {
     const Picture color(16, 12, 3, 1), depth(16, 12, 1, 5);
@@ -139,8 +139,9 @@ TEST_P(SurfaceOn, WhatIsInALightsShadowHasNoShareOfIt)
     auto becomes = [&](const char *method) {
         Json scene = relit_scene(medium, lights);
         scene["effects"]["surface"]["method"] = method;
-        return relit(context(), scene, color, depth, lights[0].contains("shadow") ? std::map<std::string, Picture>{{"shadow", map}}
-                                                                                 : std::map<std::string, Picture>{});
+        return relit(context(), scene, color, depth,
+                     lights[0].contains("shadow") ? std::map<std::string, Picture>{{"shadow", map}}
+                                                  : std::map<std::string, Picture>{});
     };
     for (const char *method : {"calibrated", "sun", "reference"}) {
         if (method == std::string("reference") && GetParam() != std::string("cpu"))

@@ -48,8 +48,8 @@ struct Seen {
     {
         f64::Light light{};
         light.position = lamp;
-        return f64::surroundings_texel({f64::surroundings_seen, 0, 0}, camera,
-                                       {values.data(), width, width, height, 1}, {width, height}, light, index);
+        return f64::surroundings_texel({f64::surroundings_seen, 0, 0}, camera, {values.data(), width, width, height, 1},
+                                       {width, height}, light, index);
     }
     f64::Camera camera = wide_camera();
     std::vector<double> values;

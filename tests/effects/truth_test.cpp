@@ -192,8 +192,8 @@ TEST_F(Truth, AirlightOfScenesThatScatterOnce)
     }
 }
 
-// A spot behind a fence, with the shadow map of the spot. The description has a spot that is alike all over its cone; Cycles' fall off
-// as the cosine from the axis, for which a penumbra of the same flux stands.
+// A spot behind a fence, with the shadow map of the spot. The description has a spot that is alike all over its cone;
+// Cycles' fall off as the cosine from the axis, for which a penumbra of the same flux stands.
 TEST_F(Truth, ShadowsOfAFence)
 {
     const Json description = Json::parse(std::ifstream(folder / "slats_s1.json"));

@@ -647,8 +647,9 @@ TEST(MediaJournal, SaysWhatIsWrongAndWhere)
               std::string::npos);
     EXPECT_NE(says(header + "{\"op\": \"erase\"}\n").find("has no \"points\""), std::string::npos);
     EXPECT_NE(says(header + "{\"op\": \"move\", \"offset\": [1, 2]}\n").find("an array of 3 numbers"), std::string::npos);
-    EXPECT_NE(says(header + "{\"op\": \"move\", \"offset\": [1, 2, 1e40]}\n").find("offset[2]: 1e+40; expected a number from"),
-              std::string::npos);
+    EXPECT_NE(
+        says(header + "{\"op\": \"move\", \"offset\": [1, 2, 1e40]}\n").find("offset[2]: 1e+40; expected a number from"),
+        std::string::npos);
     EXPECT_NE(says(header + "{\"op\": \"move\", \"offset\": [1, 2, 3], \"by\": 1}\n").find("unknown key \"by\""),
               std::string::npos);
     EXPECT_NE(

@@ -215,7 +215,8 @@ TEST(EvaluateMedium, CoefficientsAndDefaults)
     EXPECT_FLOAT_EQ(medium.scattering[2], 0.09f);
 
     scene.medium->absorption = numbers({0.5, 0.0, 0.0});
-    EXPECT_THROW(evaluate_medium(scene, 0.0, identity, medium), Error) << "absorption alone is more than that visibility allows";
+    EXPECT_THROW(evaluate_medium(scene, 0.0, identity, medium), Error)
+        << "absorption alone is more than that visibility allows";
     scene.medium->visibility.reset();
 
     scene.medium->density = {constant(0.25), constant(0.5), exponential(2, 0, {0, 1, 0}, {0, 0, 0}),

@@ -62,10 +62,10 @@ constexpr brume_constant constants_table[] = {
     BRUME_CONSTANT_OF(Constants, grid, slices), BRUME_CONSTANT_OF(Constants, grid, across),
     BRUME_CONSTANT_OF(Constants, grid, side),   BRUME_CONSTANT_OF(Constants, grid, nodes),
     BRUME_CONSTANT_OF(Constants, grid, mapped), BRUME_CONSTANT_OF(Constants, grid, gaussians),
-    BRUME_CONSTANT_OF(Constants, grid, grey),
-    BRUME_CONSTANT_OF(Constants, grid, angle),  BRUME_CONSTANT_OF(Constants, grid, depth),
-    BRUME_CONSTANT_OF(Constants, grid, doubt),  BRUME_AIRLIGHT_SETTINGS(Constants),
-    BRUME_CONSTANT(Constants, light_range),     BRUME_CONSTANT(Constants, reduction)};
+    BRUME_CONSTANT_OF(Constants, grid, grey),   BRUME_CONSTANT_OF(Constants, grid, angle),
+    BRUME_CONSTANT_OF(Constants, grid, depth),  BRUME_CONSTANT_OF(Constants, grid, doubt),
+    BRUME_AIRLIGHT_SETTINGS(Constants),         BRUME_CONSTANT(Constants, light_range),
+    BRUME_CONSTANT(Constants, reduction)};
 
 template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
 {
@@ -92,8 +92,7 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
                                 pass_text("airlight_map_attenuation.comp"), "", rows.attenuation, m.attenuation_pass))
         return s;
     if (brume_status s = create(services, host, pass("grid", density_slots, 1), "airlight_map_density.comp",
-                                pass_text("airlight_map_density.comp"), "", rows.density,
-                                m.density_pass))
+                                pass_text("airlight_map_density.comp"), "", rows.density, m.density_pass))
         return s;
     if (brume_status s = create(services, host, pass("grid", lights_slots, 16), "airlight_map_lights.comp",
                                 pass_text("airlight_map_lights.comp"), "", rows.lights, m.lights_pass))
@@ -113,7 +112,8 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     MapsOffer offer{maps::sizes_of(scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, fineness,
                                    uint64_t(p.memory * 1e6)),
                     false, 0};
-    offer.suits = scene.gaussians && scene.gaussian_count >= fewest_gaussians && p.max_error >= least_error && offer.sizes.fine;
+    offer.suits =
+        scene.gaussians && scene.gaussian_count >= fewest_gaussians && p.max_error >= least_error && offer.sizes.fine;
     // Orders beyond the first go pixel by pixel.
     const double lights = scene.light_count, looked_up = lights * (p.orders == Orders::all ? 20 : 1),
                  pixels = double(state.width) * state.height / (p.reduction * p.reduction), slices = offer.sizes.slices,
@@ -146,8 +146,7 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     s.depth = float(fineness.depth);
     s.doubt = float(fineness.doubt);
     const uint64_t map_bytes = uint64_t(s.side) * uint64_t(s.side) * uint64_t(s.nodes) * 4;
-    const int room =
-        std::clamp(int(most_map_bytes / map_bytes), lights_at_once, std::min(most_kept_maps, 16384 / s.side));
+    const int room = std::clamp(int(most_map_bytes / map_bytes), lights_at_once, std::min(most_kept_maps, 16384 / s.side));
     m.kept = std::clamp(int(scene.light_count), lights_at_once, room);
 
     auto image = [&](const char *label, ivec2 size, int32_t channels, brume_plugin_image &out) {
@@ -396,7 +395,8 @@ brume_status gather_by_maps(const brume_services &services, brume_host host, con
             if (wanted.error)
                 std::swap(now.error, before_error);
         }
-        if (brume_status s = run.gather(now, round > 0 ? before : nullptr, round > 0 && wanted.error ? before_error : nullptr))
+        if (brume_status s =
+                run.gather(now, round > 0 ? before : nullptr, round > 0 && wanted.error ? before_error : nullptr))
             return s;
     }
     return BRUME_OK;

@@ -12,7 +12,7 @@ struct Constants {
     brume::maths_float::AirlightSettings airlight;
     brume::maths_float::ivec2 light_range;  // the lights [x, y), four at most
     int32_t reduction;
-    int32_t estimate;   // the error is wanted
+    int32_t estimate;  // the error is wanted
 };
 
 namespace attenuation {

@@ -1,5 +1,6 @@
 #pragma once
-// The passes of kernel `calibrated`: what each reads, writes and is told, in the order of shaders/passes/multiscatter_*.comp.
+// The passes of kernel `calibrated`: what each reads, writes and is told, in the order of
+// shaders/passes/multiscatter_*.comp.
 #include "pass_tables.hpp"
 #include "state.h"
 
@@ -82,15 +83,21 @@ enum {
     scattered_out,
     blur_radius_out
 };
-inline constexpr brume_slot slots[] = {
-    brume_passes::fetch("color"),          brume_passes::fetch("density"),
-    brume_passes::fetch("density_rgb"),    brume_passes::fetch("lights"),
-    brume_passes::fetch("table"),          brume_passes::fetch("radiance"),
-    brume_passes::fetch("coverage"),       brume_passes::linear("radiance_stack"),
-    brume_passes::linear("coverage_stack"), brume_passes::linear("ambient_stack"),
-    brume_passes::write("result"),         brume_passes::write("transmittance_out"),
-    brume_passes::write("optical_depth_out"), brume_passes::write("scattered_out"),
-    brume_passes::write("blur_radius_out")};
+inline constexpr brume_slot slots[] = {brume_passes::fetch("color"),
+                                       brume_passes::fetch("density"),
+                                       brume_passes::fetch("density_rgb"),
+                                       brume_passes::fetch("lights"),
+                                       brume_passes::fetch("table"),
+                                       brume_passes::fetch("radiance"),
+                                       brume_passes::fetch("coverage"),
+                                       brume_passes::linear("radiance_stack"),
+                                       brume_passes::linear("coverage_stack"),
+                                       brume_passes::linear("ambient_stack"),
+                                       brume_passes::write("result"),
+                                       brume_passes::write("transmittance_out"),
+                                       brume_passes::write("optical_depth_out"),
+                                       brume_passes::write("scattered_out"),
+                                       brume_passes::write("blur_radius_out")};
 }  // namespace calibrated_compose_pass
 
 // The passes' halves for the CPU.
@@ -100,8 +107,8 @@ struct CalibratedRows {
 const CalibratedRows &calibrated_rows_of_this_machine();
 
 SpreadSource source_of(const State &state, const brume_plugin_scene &scene);
-brume::maths_float::Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene,
-                                             const SpreadSource &tabled, uint32_t visible_lights);
+brume::maths_float::Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene, const SpreadSource &tabled,
+                                             uint32_t visible_lights);
 
 // Texels of a level of a picture of this size, of which `reduction` squared pixels are one texel of level 0.
 brume::maths_float::Level level_at(brume::maths_float::ivec2 size, int reduction, int level);

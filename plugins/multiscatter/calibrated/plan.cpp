@@ -30,22 +30,22 @@ brume_status plan_passes(const brume_services &services, brume_host host, State 
 {
     using namespace brume_passes;
     const CalibratedRows &rows = calibrated_rows_of_this_machine();
-    auto pass = [&](const char *entry, const char *file, const auto &slots, const std::string &defines, brume_rows_function half,
-                    brume_pass &out) {
+    auto pass = [&](const char *entry, const char *file, const auto &slots, const std::string &defines,
+                    brume_rows_function half, brume_pass &out) {
         return create(services, host, described(entry, slots, calibrated_constants, sizeof(CalibratedConstants)), file,
                       pass_text(file), defines, half, out);
     };
     const std::string layered = define("LAYERED", state.layered);
-    for (brume_status s : {pass("scatter", "multiscatter_spread.comp", spread_pass::slots, layered, rows.spread, state.spread),
-                           pass("downsample", "multiscatter_share.comp", share_pass::slots, "", rows.share, state.share),
-                           pass("smooth", "multiscatter_smooth.comp", smooth_pass::slots, "", rows.smooth, state.smooth),
-                           state.reduction > 1 ? pass("collect", "multiscatter_collect.comp", collect_pass::slots, "",
-                                                      rows.collect, state.collect)
-                                               : BRUME_OK,
-                           pass("compose", "multiscatter_compose.comp", calibrated_compose_pass::slots,
-                                layered + define("PYRAMID", 2) + define("REDUCTION", state.reduction) +
-                                    define("OUTPUTS", int(state.outputs)),
-                                rows.compose, state.compose)})
+    for (brume_status s :
+         {pass("scatter", "multiscatter_spread.comp", spread_pass::slots, layered, rows.spread, state.spread),
+          pass("downsample", "multiscatter_share.comp", share_pass::slots, "", rows.share, state.share),
+          pass("smooth", "multiscatter_smooth.comp", smooth_pass::slots, "", rows.smooth, state.smooth),
+          state.reduction > 1
+              ? pass("collect", "multiscatter_collect.comp", collect_pass::slots, "", rows.collect, state.collect)
+              : BRUME_OK,
+          pass("compose", "multiscatter_compose.comp", calibrated_compose_pass::slots,
+               layered + define("PYRAMID", 2) + define("REDUCTION", state.reduction) + define("OUTPUTS", int(state.outputs)),
+               rows.compose, state.compose)})
         if (s)
             return s;
     return BRUME_OK;
@@ -79,7 +79,8 @@ Level level_at(ivec2 size, int reduction, int level)
     return {level_size(base, level), vec2(float(size.x), float(size.y)) / texel, level == 0 ? 0 : level_row(base, level)};
 }
 
-Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene, const SpreadSource &tabled, uint32_t visible_lights)
+Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene, const SpreadSource &tabled,
+                         uint32_t visible_lights)
 {
     const brume_plugin_medium &m = *scene.medium;
     vec3 detour;
@@ -164,8 +165,8 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
     const brume_plugin_product &visible = frame.products[use_visible_lights];
     const brume_plugin_image density = image_of(frame, use_density), density_rgb = image_of(frame, use_density_rgb),
                              lights = image_of(frame, use_visible_lights);
-    CalibratedConstants constants{calibrated_of(state, *frame.scene, state.tabled, visible.count), state.reduction, state.size(),
-                                  0, {}, {}};
+    CalibratedConstants constants{
+        calibrated_of(state, *frame.scene, state.tabled, visible.count), state.reduction, state.size(), 0, {}, {}};
     auto run = [&](brume_pass pass, const auto &images, ivec2 grid) {
         return services.run(host, pass, images, &constants, grid.x, grid.y, nullptr);
     };
@@ -175,7 +176,8 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
         constants.finer = level_at(state.size(), state.reduction, level - 1);
     };
 
-    const brume_plugin_image spread[] = {frame.color, density, density_rgb, lights, state.table, state.radiance, state.coverage};
+    const brume_plugin_image spread[] = {frame.color, density,        density_rgb,   lights,
+                                         state.table, state.radiance, state.coverage};
     if (brume_status s = run(state.spread, spread, state.base()))
         return s;
     for (int level = 1; level <= state.top; ++level) {
@@ -201,7 +203,7 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
     }
     if (state.reduction > 1) {
         // Into the pyramid's level 0, which is not needed any more.
-        const brume_plugin_image collect[] = {density,        state.table, state.smooth_radiance, state.smooth_coverage,
+        const brume_plugin_image collect[] = {density,        state.table,   state.smooth_radiance, state.smooth_coverage,
                                               state.radiance, state.coverage};
         if (brume_status s = run(state.collect, collect, state.base()))
             return s;

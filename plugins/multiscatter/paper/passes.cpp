@@ -10,15 +10,15 @@ using namespace brume_passes;
 
 brume_status plan_paper_passes(const brume_services &services, brume_host host, State &state)
 {
-    auto pass = [&](const char *entry, const char *file, const auto &slots, const std::string &defines, brume_rows_function half,
-                    brume_pass &out) {
-        return create(services, host, described(entry, slots, paper_constants, sizeof(PaperConstants)), file, pass_text(file),
-                      defines, half, out);
+    auto pass = [&](const char *entry, const char *file, const auto &slots, const std::string &defines,
+                    brume_rows_function half, brume_pass &out) {
+        return create(services, host, described(entry, slots, paper_constants, sizeof(PaperConstants)), file,
+                      pass_text(file), defines, half, out);
     };
     const std::string layered = define("LAYERED", state.layered);
     if (state.top > 0) {
-        if (brume_status s =
-                pass("scatter", "multiscatter_scatter.comp", scatter_pass::slots, layered, paper_scatter_rows, state.scatter))
+        if (brume_status s = pass("scatter", "multiscatter_scatter.comp", scatter_pass::slots, layered, paper_scatter_rows,
+                                  state.scatter))
             return s;
         if (brume_status s = pass("downsample", "multiscatter_downsample.comp", downsample_pass::slots,
                                   define("TAPS", state.parameters.taps) + define("BLURRING", state.spread_stack != nullptr) +
@@ -31,12 +31,14 @@ brume_status plan_paper_passes(const brume_services &services, brume_host host, 
                 paper_compose_rows, state.compose);
 }
 
-brume_status execute_paper(const brume_services &services, brume_host host, const State &state, const brume_plugin_frame &frame)
+brume_status execute_paper(const brume_services &services, brume_host host, const State &state,
+                           const brume_plugin_frame &frame)
 {
     const brume_plugin_image density = image_of(frame, use_density), density_rgb = image_of(frame, use_density_rgb),
-                             gaussian_density = image_of(frame, use_gaussian_density), lights = image_of(frame, use_visible_lights);
-    PaperConstants constants{filter_of(state, *frame.scene, frame.products[use_visible_lights].count), 0, {}, {}, 0,
-                             state.parameters.taps};
+                             gaussian_density = image_of(frame, use_gaussian_density),
+                             lights = image_of(frame, use_visible_lights);
+    PaperConstants constants{
+        filter_of(state, *frame.scene, frame.products[use_visible_lights].count), 0, {}, {}, 0, state.parameters.taps};
     if (state.top == 0)
         constants.multiscatter.top = 0;
     auto run = [&](brume_pass pass, const auto &images, ivec2 grid) {

@@ -69,14 +69,20 @@ enum {
     scattered_out,
     blur_radius_out
 };
-inline constexpr brume_slot slots[] = {
-    brume_passes::fetch("color"),             brume_passes::fetch("density"),
-    brume_passes::fetch("density_rgb"),       brume_passes::fetch("gaussian_density"),
-    brume_passes::linear("radiance"),         brume_passes::linear("radiance_stack"),
-    brume_passes::linear("spread_stack"),     brume_passes::linear("separated"),
-    brume_passes::linear("separated_stack"),  brume_passes::write("result"),
-    brume_passes::write("transmittance_out"), brume_passes::write("optical_depth_out"),
-    brume_passes::write("scattered_out"),     brume_passes::write("blur_radius_out")};
+inline constexpr brume_slot slots[] = {brume_passes::fetch("color"),
+                                       brume_passes::fetch("density"),
+                                       brume_passes::fetch("density_rgb"),
+                                       brume_passes::fetch("gaussian_density"),
+                                       brume_passes::linear("radiance"),
+                                       brume_passes::linear("radiance_stack"),
+                                       brume_passes::linear("spread_stack"),
+                                       brume_passes::linear("separated"),
+                                       brume_passes::linear("separated_stack"),
+                                       brume_passes::write("result"),
+                                       brume_passes::write("transmittance_out"),
+                                       brume_passes::write("optical_depth_out"),
+                                       brume_passes::write("scattered_out"),
+                                       brume_passes::write("blur_radius_out")};
 }  // namespace paper_compose_pass
 
 // The passes' halves for the CPU.

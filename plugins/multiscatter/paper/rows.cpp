@@ -22,7 +22,8 @@ struct Call {
     {
         const float *texel = at(slots[scatter_pass::density], x, y);
         const vec2 density(texel[0], texel[1]);
-        const brume_plugin_pixels &rgb = slots[scatter_pass::density_rgb], &gaussians = slots[scatter_pass::gaussian_density];
+        const brume_plugin_pixels &rgb = slots[scatter_pass::density_rgb],
+                                  &gaussians = slots[scatter_pass::gaussian_density];
         const Pixel pixel = rgb.data ? pixel_in_layer(medium, camera, density, vec3(load(rgb, x, y)))
                                      : pixel_in_medium(medium, camera, density);
         return placed_pixel(pixel, medium, camera, constants.multiscatter, pixel_centre(x, y), density,
@@ -72,8 +73,8 @@ brume_status paper_scatter_rows(const brume_plugin_rows *rows, int32_t first, in
     const Filter &f = call.constants.multiscatter;
     return for_pixels(*rows, first, last, [&](int x, int y) {
         Pixel pixel = call.pixel_at(x, y);
-        pixel.share =
-            share_beside_lights(texture_of(call.slots[lights]), f.lights, f.all_orders, call.medium, call.camera, pixel_centre(x, y), pixel);
+        pixel.share = share_beside_lights(texture_of(call.slots[lights]), f.lights, f.all_orders, call.medium, call.camera,
+                                          pixel_centre(x, y), pixel);
         const Sources s = scattered_sources(call.medium, f, pixel, vec3(load(call.slots[color], x, y)));
         store(call.slots[radiance], x, y, s.spread);
         if (call.slots[separated].data)

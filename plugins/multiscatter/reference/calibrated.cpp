@@ -75,7 +75,8 @@ Calibrated in_double(const brume::maths_float::Calibrated &f)
 
 void CalibratedSplatting::find_sources(const ReferenceFrame &frame, int first, int last)
 {
-    const Calibrated f = in_double(calibrated_of(frame.state, frame.scene, source_of(frame.state, frame.scene), uint32_t(frame.light_count)));
+    const Calibrated f =
+        in_double(calibrated_of(frame.state, frame.scene, source_of(frame.state, frame.scene), uint32_t(frame.light_count)));
     for (int y = first; y < last; ++y)
         for (int x = 0; x < frame.state.width; ++x) {
             const Pixel pixel = frame.pixel_at(x, y);

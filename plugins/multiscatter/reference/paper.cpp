@@ -37,8 +37,9 @@ public:
             for (int x = 0; x < frame.state.width; ++x) {
                 Pixel pixel = frame.pixel_at(x, y);
                 if (frame.state.beside_lights)
-                    pixel.share = share_beside_lights(frame.lights.texture(), frame.light_count, frame.state.beside_all_orders, frame.medium,
-                                                      frame.camera, vec2(x + 0.5, y + 0.5), pixel);
+                    pixel.share =
+                        share_beside_lights(frame.lights.texture(), frame.light_count, frame.state.beside_all_orders,
+                                            frame.medium, frame.camera, vec2(x + 0.5, y + 0.5), pixel);
                 sources_[frame.index(x, y)] = vec4(pixel.share * finite_or_zero(frame.color_at(x, y)), pixel.spread);
             }
     }

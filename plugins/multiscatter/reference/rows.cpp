@@ -18,10 +18,11 @@ Pixel ReferenceFrame::pixel_at(int x, int y) const
 {
     const float *texel = at(slots[reference_pass::density], x, y);
     const vec2 density(texel[0], texel[1]);
-    const brume_plugin_pixels &rgb = slots[reference_pass::density_rgb], &gaussians = slots[reference_pass::gaussian_density];
+    const brume_plugin_pixels &rgb = slots[reference_pass::density_rgb],
+                              &gaussians = slots[reference_pass::gaussian_density];
     const float *each = rgb.data ? at(rgb, x, y) : nullptr;
-    const Pixel pixel =
-        each ? pixel_in_layer(medium, camera, density, vec3(each[0], each[1], each[2])) : pixel_in_medium(medium, camera, density);
+    const Pixel pixel = each ? pixel_in_layer(medium, camera, density, vec3(each[0], each[1], each[2]))
+                             : pixel_in_medium(medium, camera, density);
     return placed_pixel(pixel, medium, camera, filter, vec2(x + 0.5, y + 0.5), density,
                         gaussians.data ? double(at(gaussians, x, y)[1]) : 0);
 }
@@ -50,12 +51,15 @@ void compose_rows(const ReferenceFrame &frame, const Splatting &splatting, int f
         for (int x = 0; x < frame.state.width; ++x) {
             const Pixel pixel = frame.pixel_at(x, y);
             const vec3 added = pixel.emitted + sum[frame.index(x, y - first)];
-            const float *in = at(frame.slots[color], x, y), *rgb = frame.slots[density_rgb].data ? at(frame.slots[density_rgb], x, y) : nullptr;
+            const float *in = at(frame.slots[color], x, y),
+                        *rgb = frame.slots[density_rgb].data ? at(frame.slots[density_rgb], x, y) : nullptr;
             store(frame.slots[result], x, y,
                   compose_radiance(frame.color_at(x, y), pixel.transmittance, added, frame.scene.output_limit), in[3]);
             store(frame.slots[transmittance_out], x, y, pixel.transmittance, 1);
             store(frame.slots[optical_depth_out], x, y,
-                  rgb ? optical_depth(frame.medium, vec3(rgb[0], rgb[1], rgb[2])) : optical_depth(frame.medium, pixel.density), 1);
+                  rgb ? optical_depth(frame.medium, vec3(rgb[0], rgb[1], rgb[2]))
+                      : optical_depth(frame.medium, pixel.density),
+                  1);
             store(frame.slots[scattered_out], x, y, added, 1);
             store(frame.slots[blur_radius_out], x, y, vec3(pixel.spread), 1);
         }
@@ -79,16 +83,10 @@ ReferenceFrame frame_of(const Job &job, const brume_plugin_rows &call)
 brume_status plan_reference_passes(const brume_services &services, brume_host host, State &state)
 {
     using namespace brume_passes;
-    static constexpr brume_slot slots[] = {fetch("color"),
-                                           fetch("density"),
-                                           fetch("density_rgb"),
-                                           fetch("gaussian_density"),
-                                           fetch("lights"),
-                                           write("result"),
-                                           write("transmittance_out"),
-                                           write("optical_depth_out"),
-                                           write("scattered_out"),
-                                           write("blur_radius_out")};
+    static constexpr brume_slot slots[] = {
+        fetch("color"),         fetch("density"),        fetch("density_rgb"),       fetch("gaussian_density"),
+        fetch("lights"),        write("result"),         write("transmittance_out"), write("optical_depth_out"),
+        write("scattered_out"), write("blur_radius_out")};
     brume_pass_desc desc{};
     desc.struct_size = sizeof desc;
     desc.name = "reference";

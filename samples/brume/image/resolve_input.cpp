@@ -199,8 +199,8 @@ InputChoice resolve_shadow(const ImageFile &file, const std::string &wanted, std
     }
     const PartInfo &part = file.part(choice.part);
     if (choice.channels.size() != 1)
-        throw RequestError(fmt::format("{}: {}: '{}' has {} channels; expected one, of distances", file.path().string(), asked,
-                                       choice.label(), choice.channels.size()));
+        throw RequestError(fmt::format("{}: {}: '{}' has {} channels; expected one, of distances", file.path().string(),
+                                       asked, choice.label(), choice.channels.size()));
     if (const SampleType type = part.find(choice.channels.front())->type;
         type != SampleType::kHalf && type != SampleType::kFloat)
         throw RequestError(fmt::format("{}: {}: '{}' is {}; expected half or float, of distances in scene units",

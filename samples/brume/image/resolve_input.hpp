@@ -27,8 +27,8 @@ InputChoice resolve_input(const ImageFile &file, const std::string &role, const 
 /// The layer that the scene's light names as its own share of the picture. Throws RequestError likewise.
 InputChoice resolve_group(const ImageFile &file, const std::string &wanted, std::uint32_t light, const ColorChoice &color);
 
-/// The depth in a light's shadow map: what `wanted` names, else what depth is called. Throws RequestError likewise, and where its
-/// numbers cannot be distances.
+/// The depth in a light's shadow map: what `wanted` names, else what depth is called. Throws RequestError likewise, and
+/// where its numbers cannot be distances.
 InputChoice resolve_shadow(const ImageFile &file, const std::string &wanted, std::uint32_t light);
 
 /// Whether some layers are taken for this role without being asked for.

@@ -60,7 +60,8 @@ public:
         images_.reserve(inputs.size());
         for (const InputLayer &input : inputs) {
             // Inputs are only read.
-            images_.push_back(host_image(const_cast<float *>(input.pixels.data()), input.width, input.height, input.channels));
+            images_.push_back(
+                host_image(const_cast<float *>(input.pixels.data()), input.width, input.height, input.channels));
             layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
             layers_.back().light = input.light;
         }

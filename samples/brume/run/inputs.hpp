@@ -48,8 +48,8 @@ struct OpenInput {
     std::optional<ImageFile> file;
 };
 
-/// What was asked for, the scene's groups and shadow maps, and of `known` roles what the picture's file has. Throws FrameError for files
-/// that cannot be read, RequestError where layers cannot be resolved.
+/// What was asked for, the scene's groups and shadow maps, and of `known` roles what the picture's file has. Throws
+/// FrameError for files that cannot be read, RequestError where layers cannot be resolved.
 std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int frame,
                                    const std::vector<InputRequest> &asked, const std::vector<std::string> &known,
                                    const std::vector<LightGroup> &groups, const std::vector<ShadowFile> &shadows,

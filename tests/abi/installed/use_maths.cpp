@@ -18,7 +18,7 @@ int main()
     const float scattering = brume::maths_float::medium_of(scene).scattering.y;
     if (std::abs(single - expected) < 1e-6 && std::abs(twice - expected) < 1e-13 && scattering == 0.25f)
         return 0;
-    std::printf("henyey_greenstein(%g, %g): %.9g in float, %.17g in double, expected %.17g; scattering %g, expected 0.25\n", g,
-                cosine, double(single), twice, expected, double(scattering));
+    std::printf("henyey_greenstein(%g, %g): %.9g in float, %.17g in double, expected %.17g; scattering %g, expected 0.25\n",
+                g, cosine, double(single), twice, expected, double(scattering));
     return 1;
 }
