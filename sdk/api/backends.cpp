@@ -1,6 +1,6 @@
 #include "api/backends.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #ifdef BRUME_GL
 #include "gl/gl_backend.h"
 #endif

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "core/backend.h"
+#include "plan/backend.h"
 
 namespace brume {
 

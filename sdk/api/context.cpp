@@ -1,7 +1,7 @@
 #include "api/backends.h"
 #include "api/handles.h"
 #include "api/structs.h"
-#include "core/calibration.h"
+#include "plan/calibration.h"
 
 using namespace brume;
 using namespace brume::api;

@@ -10,12 +10,12 @@
 #include <brume/brume_media.h>
 #include <fmt/format.h>
 
-#include "core/context.h"
-#include "core/error.h"
-#include "core/floating_point.h"
-#include "core/media/history.h"
-#include "core/plan.h"
-#include "core/scene.h"
+#include "plan/context.h"
+#include "base/error.h"
+#include "base/floating_point.h"
+#include "media/history.h"
+#include "plan/plan.h"
+#include "scene/scene.h"
 
 // What the opaque handles point to. Each keeps the context alive.
 struct brume_context_t {

@@ -7,8 +7,8 @@
 
 #include "api/handles.h"
 #include "api/structs.h"
-#include "core/gaussian_file.h"
-#include "core/view.h"
+#include "gaussians/gaussian_file.h"
+#include "scene/view.h"
 
 using namespace brume;
 using namespace brume::api;

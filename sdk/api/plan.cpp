@@ -7,8 +7,8 @@
 
 #include "api/handles.h"
 #include "api/structs.h"
-#include "core/effects.h"
-#include "core/quality.h"
+#include "effects/effects.h"
+#include "plan/quality.h"
 
 using namespace brume;
 using namespace brume::api;

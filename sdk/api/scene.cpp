@@ -5,9 +5,9 @@
 
 #include "api/handles.h"
 #include "api/structs.h"
-#include "core/scene_check.h"
-#include "core/scene_ranges.h"
-#include "core/view.h"
+#include "scene/scene_check.h"
+#include "base/scene_ranges.h"
+#include "scene/view.h"
 
 using namespace brume;
 using namespace brume::api;

@@ -8,11 +8,11 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "core/backend.h"
-#include "core/error.h"
-#include "core/idle_images.h"
-#include "core/pixels.h"
-#include "core/text.h"
+#include "plan/backend.h"
+#include "base/error.h"
+#include "plan/idle_images.h"
+#include "base/pixels.h"
+#include "base/text.h"
 
 namespace brume {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include "core/error.h"
+#include "base/error.h"
 #include "gl/egl_context.h"
 #include "gl/error.h"
 

@@ -8,7 +8,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include "core/error.h"
+#include "base/error.h"
 
 namespace brume::gl {
 namespace {

@@ -1,6 +1,6 @@
 #include "gl/error.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 namespace brume::gl {
 

@@ -4,8 +4,8 @@
 
 #include <epoxy/gl.h>
 
-#include "core/error.h"
-#include "core/half.h"
+#include "base/error.h"
+#include "base/half.h"
 #include "gl/convert.h"
 #include "gl/device.h"
 #include "gl/gl_backend.h"

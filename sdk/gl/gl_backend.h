@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/backend.h"
+#include "plan/backend.h"
 
 namespace brume {
 

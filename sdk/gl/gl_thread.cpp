@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/log.h"
+#include "base/log.h"
 #include "gl/egl_context.h"
 
 namespace brume::gl {

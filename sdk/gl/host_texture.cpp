@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/error.h"
-#include "core/recycling_allocator.h"
+#include "base/error.h"
+#include "base/recycling_allocator.h"
 #include "gl/debug_group.h"
 #include "gl/error.h"
 

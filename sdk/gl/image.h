@@ -4,8 +4,8 @@
 
 #include <epoxy/gl.h>
 
-#include "core/backend.h"
-#include "core/idle_images.h"
+#include "plan/backend.h"
+#include "plan/idle_images.h"
 #include "gl/disposal.h"
 
 namespace brume::gl {

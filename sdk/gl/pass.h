@@ -4,7 +4,7 @@
 
 #include <epoxy/gl.h>
 
-#include "core/backend.h"
+#include "plan/backend.h"
 #include "gl/program.h"
 #include "gl/state_guard.h"
 

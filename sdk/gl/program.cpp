@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/error.h"
-#include "core/scene_constants.h"
+#include "base/error.h"
+#include "scene/scene_constants.h"
 #include "gl/program_source.h"
 
 namespace brume::gl {

@@ -6,7 +6,7 @@
 
 #include <epoxy/gl.h>
 
-#include "core/backend.h"
+#include "plan/backend.h"
 #include "gl/disposal.h"
 
 namespace brume::gl {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "core/error.h"
-#include "core/shader_text.h"
+#include "base/error.h"
+#include "effects/shader_text.h"
 
 namespace brume::gl {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/pixels.h"
+#include "base/pixels.h"
 
 namespace brume::gl {
 namespace {

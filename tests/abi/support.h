@@ -10,7 +10,7 @@
 
 #include <brume/brume.h>
 
-#include "core/half.h"
+#include "base/half.h"
 
 namespace client {
 

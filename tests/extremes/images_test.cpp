@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "columns.h"
-#include "core/half.h"
+#include "base/half.h"
 
 using namespace extremes;
 using fog::Frame;

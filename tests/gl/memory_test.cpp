@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/idle_images.h"
+#include "plan/idle_images.h"
 #include "support.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/shader_text.h"
+#include "effects/shader_text.h"
 #include "gl/program_source.h"
 #include "gl_calls.h"
 #include "support.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/idle_images.h"
+#include "plan/idle_images.h"
 #include "gl/state_guard.h"
 #include "host_state.h"
 #include "support.h"

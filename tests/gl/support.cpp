@@ -1,6 +1,6 @@
 #include "support.h"
 
-#include "core/pass_layout.h"
+#include "effects/pass_layout.h"
 
 namespace brume::test {
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/half.h"
+#include "base/half.h"
 #include "support.h"
 
 namespace brume::test {

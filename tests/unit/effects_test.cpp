@@ -1,11 +1,12 @@
-#include "core/effects.h"
+#include "effects/effects.h"
 
 #include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/error.h"
+#include "base/names.h"
 
 namespace brume {
 namespace {

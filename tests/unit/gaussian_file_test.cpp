@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "core/error.h"
-#include "core/gaussian_file.h"
-#include "core/gaussian_formats.h"
+#include "base/error.h"
+#include "gaussians/gaussian_file.h"
+#include "gaussians/gaussian_formats.h"
 
 namespace brume {
 namespace {

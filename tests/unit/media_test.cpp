@@ -8,10 +8,10 @@
 #include <brume/brume_media.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/media/base64.h"
-#include "core/media/history.h"
-#include "core/media/random.h"
+#include "base/error.h"
+#include "media/base64.h"
+#include "media/history.h"
+#include "media/random.h"
 
 namespace brume::media {
 namespace {

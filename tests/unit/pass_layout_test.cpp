@@ -1,10 +1,10 @@
-#include "core/pass_layout.h"
+#include "effects/pass_layout.h"
 
 #include <functional>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "base/error.h"
 
 namespace brume {
 namespace {

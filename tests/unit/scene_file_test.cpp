@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/effects.h"
-#include "core/error.h"
-#include "core/scene.h"
+#include "effects/effects.h"
+#include "base/error.h"
+#include "scene/scene.h"
 
 namespace brume {
 namespace {

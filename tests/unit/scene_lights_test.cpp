@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/gaussian_frames.h"
-#include "core/scene.h"
+#include "base/error.h"
+#include "gaussians/gaussian_frames.h"
+#include "scene/scene.h"
 
 namespace brume {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/scene.h"
+#include "base/error.h"
+#include "scene/scene.h"
 #include "maths.hpp"
 
 namespace brume {

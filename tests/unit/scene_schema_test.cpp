@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/effects.h"
-#include "core/scene.h"
+#include "effects/effects.h"
+#include "scene/scene.h"
 
 namespace brume {
 namespace {

@@ -1,0 +1,173 @@
+#include "scene/scene_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/scene_ranges.h"
+
+namespace brume {
+namespace {
+
+constexpr double rigid_tolerance = 1e-3;
+
+void check(double value, const Range &range, const std::string &name)
+{
+    if (!range.contains(value))
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {}; expected {}", name, value, range.describe()));
+}
+
+void check(const Number &number, const Range &range, const std::string &name)
+{
+    for (auto &[frame, value] : number.keys)
+        check(value, range, name);
+}
+
+void check(const Number3 &numbers, const Range &range, const std::string &name)
+{
+    for (size_t i = 0; i < 3; ++i)
+        check(numbers[i], range, fmt::format("{}[{}]", name, i));
+}
+
+void check_direction(const Number3 &direction, const std::string &name)
+{
+    check(direction, ranges::any, name);
+    if (std::all_of(direction.begin(), direction.end(), [](const Number &n) { return n.at(0) == 0; }))
+        throw Error(BRUME_ERROR_ARGUMENT, name + ": (0, 0, 0); expected a direction");
+}
+
+}  // namespace
+
+std::string rigid_defect(const std::array<double, 16> &m)
+{
+    for (size_t column = 0; column < 4; ++column)
+        if (m[12 + column] != (column == 3 ? 1.0 : 0.0))
+            return fmt::format("last row {} {} {} {}", m[12], m[13], m[14], m[15]);
+    for (size_t a = 0; a < 3; ++a) {
+        for (size_t b = a; b < 3; ++b) {
+            const double product = m[a] * m[b] + m[4 + a] * m[4 + b] + m[8 + a] * m[8 + b];
+            if (!(std::abs(product - (a == b)) <= rigid_tolerance))
+                return a == b ? fmt::format("column {} has length {:.6g}", a, std::sqrt(product))
+                              : fmt::format("columns {} and {} have the product {:.6g}", a, b, product);
+        }
+    }
+    const double determinant =
+        m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
+    return determinant > 0.0 ? "" : "it mirrors: its determinant is negative";
+}
+
+void check_medium(const Medium &medium)
+{
+    check(medium.scattering, ranges::not_negative, "medium.scattering");
+    check(medium.absorption, ranges::not_negative, "medium.absorption");
+    check(medium.emission, ranges::not_negative, "medium.emission");
+    check(medium.g, ranges::asymmetry, "medium.g");
+    if (medium.visibility)
+        check(*medium.visibility, ranges::positive, "medium.visibility");
+    if (medium.droplet_diameter)
+        check(*medium.droplet_diameter, ranges::droplet_diameter, "medium.droplet_diameter");
+    check(medium.noise.strength, ranges::noise_strength, "medium.noise_strength");
+    check(medium.noise.scale, ranges::noise_scale, "medium.noise_scale");
+    check(medium.noise.offset, ranges::any, "medium.noise_offset");
+    check(Number(medium.noise.seed), ranges::noise_seed, "medium.noise_seed");
+    size_t exponential = 0;
+    for (size_t i = 0; i < medium.density.size(); ++i) {
+        const DensityTerm &term = medium.density[i];
+        std::string name = fmt::format("medium.terms[{}]", i);
+        if (term.type != BRUME_DENSITY_CONSTANT && term.type != BRUME_DENSITY_EXPONENTIAL)
+            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_DENSITY_...", name, term.type));
+        check(term.value, ranges::not_negative, name + ".value");
+        if (term.type != BRUME_DENSITY_EXPONENTIAL)
+            continue;
+        ++exponential;
+        check(term.falloff, ranges::not_negative, name + ".falloff");
+        check_direction(term.direction, name + ".direction");
+        check(term.origin, ranges::any, name + ".origin");
+    }
+    if (exponential > BRUME_MAX_DENSITY_TERMS)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.terms: {} exponential ones; expected at most {}", exponential,
+                                                      BRUME_MAX_DENSITY_TERMS));
+}
+
+void check_gaussian(const Gaussian &gaussian, const std::string &name)
+{
+    // Names are made only where they are needed: there may be a million of these.
+    const auto within = [](const auto &values, const Range &range) {
+        return std::all_of(values.begin(), values.end(), [&](double x) { return range.contains(x); });
+    };
+    if (within(gaussian.center, ranges::any) && within(gaussian.color, ranges::fraction) &&
+        ranges::positive.contains(gaussian.scale) && ranges::not_negative.contains(gaussian.amplitude))
+        return;
+    for (size_t i = 0; i < 3; ++i) {
+        check(gaussian.center[i], ranges::any, fmt::format("{}.center[{}]", name, i));
+        check(double(gaussian.color[i]), ranges::fraction, fmt::format("{}.color[{}]", name, i));
+    }
+    check(gaussian.scale, ranges::positive, name + ".scale");
+    check(gaussian.amplitude, ranges::not_negative, name + ".amplitude");
+}
+
+namespace {
+
+void check_shadow(const Light &light, const std::string &name)
+{
+    const LightShadow &shadow = light.shadow;
+    if (shadow.kind == BRUME_SHADOW_NONE)
+        return;
+    const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
+    const bool around = shadow.kind == BRUME_SHADOW_LATLONG;
+    if (shadow.kind != (parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE) && (parallel || !around))
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_kind: {}; expected BRUME_SHADOW_NONE or {}", name, shadow.kind,
+                                parallel ? "_ORTHOGRAPHIC for a directional light"
+                                         : "_PERSPECTIVE or _LATLONG for a point or spot light"));
+    if (shadow.depth != BRUME_DEPTH_PLANAR && shadow.depth != BRUME_DEPTH_RAY)
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY", name, shadow.depth));
+    if (around && shadow.depth != BRUME_DEPTH_RAY)
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around", name, shadow.depth));
+    if (!around)
+        check(shadow.extent, parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
+    std::array<double, 16> matrix;
+    for (size_t i = 0; i < 16; ++i) {
+        check(shadow.to_world[i], ranges::any, fmt::format("{}.shadow_to_world[{}]", name, i));
+        matrix[i] = shadow.to_world[i].at(0);
+    }
+    if (const std::string defect = rigid_defect(matrix); !defect.empty())
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_to_world: {}; expected a rigid motion", name, defect));
+}
+
+}  // namespace
+
+void check_light(const Light &light, const std::string &name)
+{
+    check_shadow(light, name);
+    if (light.surfaces > BRUME_SURFACES_UNLIT)
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name, light.surfaces));
+    if (light.type > BRUME_LIGHT_DIRECTIONAL)
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
+    check(light.intensity, ranges::not_negative, name + ".intensity");
+    if (light.type != BRUME_LIGHT_POINT)
+        check_direction(light.direction, name + ".direction");
+    if (light.type == BRUME_LIGHT_DIRECTIONAL) {
+        check(light.distance, ranges::not_negative, name + ".distance");
+        return;
+    }
+    check(light.position, ranges::any, name + ".position");
+    check(light.radius, ranges::not_negative, name + ".radius");
+    if (light.type == BRUME_LIGHT_SPOT) {
+        check(light.angle, ranges::spot_angle, name + ".angle");
+        check(light.penumbra, ranges::fraction, name + ".penumbra");
+    }
+}
+
+void check_environment(const Environment &environment)
+{
+    const auto &coefficients = environment.coefficients;
+    for (size_t i = 0; i < coefficients.size(); ++i)
+        for (size_t channel = 0; channel < 3; ++channel)
+            check(coefficients[i][channel], ranges::any, fmt::format("environment[{}][{}]", i, channel));
+}
+
+}  // namespace brume
