@@ -1,5 +1,5 @@
 // Channels of an image that do not lie alone and side by side: with other images in one pixel, or in planes.
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

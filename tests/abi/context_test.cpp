@@ -1,7 +1,7 @@
 // Contexts, messages, logging, lifetimes.
 #include <thread>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

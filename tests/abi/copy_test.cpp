@@ -1,5 +1,5 @@
 // Plans that do nothing return the input bit for bit.
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

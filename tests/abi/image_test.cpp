@@ -1,5 +1,5 @@
 // Host memory: layouts, in place, threads, origins. Whatever the memory looks like, the bits are the same.
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -1,7 +1,7 @@
 // Defaults for languages without the macros: each function fills what its macro says.
 #include <brume/brume_media.h>
 
-#include "support.h"
+#include "client.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Layers by name: what is listed, what formats and frames may bring and ask for, and what they are told otherwise.
 #include <map>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -5,7 +5,7 @@
 
 #include <brume/brume_media.h>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

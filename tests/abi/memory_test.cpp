@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

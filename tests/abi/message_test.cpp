@@ -6,7 +6,7 @@
 
 #include <brume/brume_media.h>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -1,7 +1,7 @@
 // What comes out: alpha, components that are not finite, half limits, output layers.
 #include <limits>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

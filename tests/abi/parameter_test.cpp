@@ -2,7 +2,7 @@
 #include <set>
 #include <sstream>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -1,7 +1,7 @@
 // What plans say, what they need, and what they are checked against.
 #include <chrono>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <thread>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 namespace fs = std::filesystem;

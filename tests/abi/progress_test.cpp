@@ -1,7 +1,7 @@
 // How far a long call has come, and its end before that.
 #include <thread>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -1,5 +1,5 @@
 // Quality and calibration through the C ABI.
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

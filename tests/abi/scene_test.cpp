@@ -1,5 +1,5 @@
 // Scenes through the C ABI: what setters take and refuse. What scene files may hold is tested in tests/unit.
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -1,7 +1,7 @@
 // Size-tagged structs: smaller ones of an older header, larger ones of a newer, and nonsense.
 #include <brume/brume_media.h>
 
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

@@ -1,5 +1,5 @@
 // Plans that are given other scenes: the frames of a new plan, bit for bit, or a refusal that leaves the plan as it was.
-#include "support.h"
+#include "client.h"
 
 using namespace client;
 

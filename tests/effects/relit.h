@@ -1,5 +1,7 @@
 #pragma once
 // Effects that read a layer of each light, through the C ABI.
+#include <deque>
+
 #include "lit_scene.h"
 
 namespace fog {

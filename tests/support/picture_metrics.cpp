@@ -1,12 +1,11 @@
-#pragma once
-#include <algorithm>
+#include "picture_metrics.h"
 
-#include "fog.h"
+#include <algorithm>
+#include <cmath>
 
 namespace fog {
 
-// The metrics of the tool's `compare` are of this: 2 x 2 box averages, then a 3 x 3 box filter.
-inline Picture smoothed(const Picture &p)
+Picture smoothed(const Picture &p)
 {
     Picture half(p.width / 2, p.height / 2, 3), out = half;
     for (int y = 0; y < half.height; ++y)
@@ -27,7 +26,7 @@ inline Picture smoothed(const Picture &p)
     return out;
 }
 
-inline double rel_mse(const Picture &a, const Picture &b)
+double rel_mse(const Picture &a, const Picture &b)
 {
     const Picture sa = smoothed(a), sb = smoothed(b);
     double mean = 0, error = 0;
@@ -40,14 +39,12 @@ inline double rel_mse(const Picture &a, const Picture &b)
     return error;
 }
 
-// As brume_quality.max_error counts.
-inline double error_of(const Picture &a, const Picture &reference)
+double error_of(const Picture &a, const Picture &reference)
 {
     return std::sqrt(rel_mse(a, reference));
 }
 
-// As brume_quality.detail.
-inline double detail_of(const Picture &p)
+double detail_of(const Picture &p)
 {
     Picture blurred = p;
     for (int y = 0; y < p.height; ++y)

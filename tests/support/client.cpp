@@ -1,4 +1,4 @@
-#include "support.h"
+#include "client.h"
 
 #include <stdexcept>
 

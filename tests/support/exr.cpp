@@ -1,7 +1,4 @@
-#pragma once
-// Small EXR files for tests, through OpenEXR.
-#include <string>
-#include <vector>
+#include "exr.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -9,12 +6,9 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 
-#include "fog.h"
-
 namespace fog {
 
-// The named channels, 0 where the file lacks one (A: 1).
-inline Picture read_exr(const std::string &file, const std::vector<std::string> &channels)
+Picture read_exr(const std::string &file, const std::vector<std::string> &channels)
 {
     Imf::InputFile in(file.c_str());
     Imath::Box2i window = in.header().dataWindow();
@@ -29,7 +23,7 @@ inline Picture read_exr(const std::string &file, const std::vector<std::string> 
     return p;
 }
 
-inline void write_exr(const std::string &file, const Picture &p, const std::vector<std::string> &channels)
+void write_exr(const std::string &file, const Picture &p, const std::vector<std::string> &channels)
 {
     Imf::Header header(p.width, p.height);
     header.compression() = Imf::ZIP_COMPRESSION;
