@@ -102,6 +102,9 @@ std::vector<Case> truth_pictures(const Options &options, bool single)
     for (const fs::path &file : files) {
         const std::string name = file.stem();
         const Json description = truth_description(options, name);
+        // Lamps that are listed light surfaces and have shadows, which ask for effects beside the one that is studied.
+        if (!description.contains("emitters"))
+            continue;
         if (single != (description["medium"].value("orders", "") == "single"))
             continue;
         Json scene = scene_of_description(description);
