@@ -14,10 +14,9 @@ build/release/bin/maps_bench 353 1 353 3 3008 1 3008 3 3008 8 | tee "$out/maps.m
 build/release/bin/map_bases | tee "$out/map_bases.md"
 tests/bench/sequence_bench.sh build/release/bin/brume samples/frames "$out"
 build/release/bin/surface_calibration ${1:+"$1"} | tee "$out/surface_calibration.txt"
+build/release/bin/slab_calibration ${1:+"$1"} | tee "$out/slab_calibration.txt"
 build/release/bin/surface_accuracy ${1:+"$1"} | tee "$out/surface_accuracy.txt"
 build/release/bin/quality_bench ${1:+"$1"} "$out/quality.json" "$out/quality.md"
 tests/bench/trade.sh ${1:+"$1"}
 build/release/bin/effect_tests --gtest_filter='Truth.*:Paper.*:*ResolutionInvariance*:*WholeFilter*' | grep -v '^\[' | tee "$out/accuracy.txt"
-echo "in $out: filter.json, filter.md, airlight.json, airlight.md,
-  airlight_speed.json, airlight_speed.md, maps.md, map_bases.md, sequence.md, accuracy.txt, surface_calibration.txt, surface_accuracy.txt,
-  quality.json, quality.md, trade.json, trade.md, trade.svg, trade.png"
+echo "in $out: $(ls "$out" | tr "\n" " ")"
