@@ -76,6 +76,7 @@ struct LightShadow {
     uint32_t depth = BRUME_DEPTH_PLANAR;
     Number extent = 0.0;  // as brume_light.shadow_extent
     std::array<Number, 16> to_world{};
+    std::array<double, 2> range{};  // as brume_light.shadow_range
     std::string file;  // map named by the scene's text
 };
 
