@@ -89,6 +89,18 @@ void report(const char *name, const Errors &e)
            e.y);
 }
 
+// A cloud before the camera and a wide one behind it, a lamp between the two.
+Json on_both_sides()
+{
+    Json all = cloud(200, 13);
+    for (Json g : cloud(200, 14)) {
+        const Vector c = g["center"];
+        g["center"] = {10 * c[0], 10 * c[1], 20 - 3 * c[2]};
+        all.push_back(g);
+    }
+    return scene_of(all, Json::array({point_light({20, 10, 20}, 20000)}));
+}
+
 std::vector<NamedScene> clouds()
 {
     std::vector<NamedScene> all;
@@ -113,6 +125,7 @@ std::vector<NamedScene> clouds()
     all.push_back({"a lamp and a spot, far away",
                    scene_of(cloud(200, 12), Json::array({point_light({40, 20, 10}, 20000), beam})),
                    {}});
+    all.push_back({"clouds before and behind the camera", on_both_sides(), {}});
     Json inside = cloud(200, 7);
     for (Json &g : inside)
         g["center"][2] = g["center"][2].get<double>() + 8.5;
@@ -178,20 +191,28 @@ TEST(AirlightMaps, AnyNumberOfThreadsBitForBit)
     EXPECT_EQ(airlight_of(one, scene, frame).data, airlight_of(three, scene, frame).data);
 }
 
-// Maps are kept while the camera alone moves.
+// Maps are kept while the camera alone moves, but not those of what comes into view.
 TEST(AirlightMaps, FollowTheCamera)
 {
     const Frame frame = lit_frame(48, 32);
-    const Json scene = with(scene_of(cloud(150, 11), lamps(3)), "tier", "maps");
-    const brume_camera moved = camera(pose({0.4, 0.2, -0.3}, 0.1, -0.05), 50);
-    Options options{{}, {"airlight"}};
-    const Plan plan(cpu(), scene.dump(), frame.color.width, frame.color.height, options);
-    plan.execute(frame.color, frame.depth, options);
-    options.camera = &moved;
-    const Picture kept = plan.execute(frame.color, frame.depth, options).airlight;
-    const Plan fresh(cpu(), scene.dump(), frame.color.width, frame.color.height, options);
-    const Errors e = errors(kept, fresh.execute(frame.color, frame.depth, options).airlight);
-    EXPECT_LT(e.worst, 1e-4) << e.x << ", " << e.y;
+    struct Turn {
+        Json scene;
+        double yaw;
+    };
+    for (const Turn &turn : {Turn{scene_of(cloud(150, 11), lamps(3)), 0.1}, Turn{on_both_sides(), 2.9}}) {
+        const Json scene = with(turn.scene, "tier", "maps");
+        const brume_camera moved = camera(pose({0.4, 0.2, -0.3}, turn.yaw, -0.05), 50);
+        Options options{{}, {"airlight"}};
+        const Plan plan(cpu(), scene.dump(), frame.color.width, frame.color.height, options);
+        plan.execute(frame.color, frame.depth, options);
+        options.camera = &moved;
+        const Picture kept = plan.execute(frame.color, frame.depth, options).airlight;
+        const Plan fresh(cpu(), scene.dump(), frame.color.width, frame.color.height, options);
+        const Picture anew = fresh.execute(frame.color, frame.depth, options).airlight;
+        EXPECT_GT(*std::max_element(anew.data.begin(), anew.data.end()), 0.01f);
+        const Errors e = errors(kept, anew);
+        EXPECT_LT(e.worst, 1e-4) << e.x << ", " << e.y;
+    }
 }
 
 TEST(AirlightMaps, LessMemoryIsACoarserGrid)

@@ -57,7 +57,29 @@ struct Square {
     }
 };
 
-Square around(const std::vector<Cap> &caps, vec3 u, vec3 v, vec3 axis)
+// Returns false where nothing is lit.
+bool set_range(Frame &frame, double near, double far)
+{
+    if (!(near < far))
+        return false;
+    frame.near = float(near);
+    frame.far = float(std::max(far, near + 1e-6 * std::max(1.0, std::abs(near))));
+    return true;
+}
+
+// Returns false where it is all there is.
+bool set_window(Frame &frame, const Square &square)
+{
+    const vec2 size = clamp(square.high - square.low, vec2(least_size), vec2(1)),
+               low = clamp(0.5 * (square.low + square.high - size), vec2(0), vec2(1) - size);
+    for (int i = 0; i < 2; ++i) {
+        frame.low[i] = low[i];
+        frame.size[i] = size[i];
+    }
+    return size != vec2(1);
+}
+
+Square rims(const std::vector<Cap> &caps, vec3 u, vec3 v, vec3 axis)
 {
     Square square;
     for (const Cap &cap : caps) {
@@ -85,11 +107,70 @@ Square within_cone(double angle)
     return {vec2(0.5 - half), vec2(0.5 + half)};
 }
 
-Frame fit(const brume_plugin_scene &scene, const brume_plugin_light &light, bool everywhere)
+// Where the view's rays go.
+class View {
+public:
+    View(const brume_plugin_camera &c, int width, int height)
+    {
+        const int size[2] = {width, height};
+        for (int axis = 0; axis < 2; ++axis)
+            for (int end = 0; end < 2; ++end) {
+                const double tangent = (end * size[axis] - double(c.center[axis])) * c.tangent_scale[axis],
+                             side = (end == 0) == (c.tangent_scale[axis] > 0) ? 1 : -1;
+                vec3 plane(0, 0, tangent);
+                plane[axis] = 1;
+                inward_[2 * axis + end] = side * glm::normalize(plane);
+            }
+    }
+    bool meets(vec3 center, double reach) const
+    {
+        return reach > center.z &&
+               std::all_of(std::begin(inward_), std::end(inward_), [&](vec3 plane) { return dot(plane, center) > -reach; });
+    }
+
+private:
+    vec3 inward_[4];
+};
+
+struct Fit {
+    const brume_plugin_scene &scene;
+    View view;
+    bool everywhere;
+
+    // Where nothing but Gaussians scatters, only those that the view's rays meet are lit.
+    bool is_lit(vec3 center, double reach) const
+    {
+        return scene.medium->constant > 0 || scene.medium->term_count > 0 || view.meets(center, reach);
+    }
+    Frame across(const brume_plugin_light &light) const;
+    Frame around(const brume_plugin_light &light) const;
+};
+
+Frame Fit::across(const brume_plugin_light &light) const
+{
+    const Medium medium = medium_of(scene);
+    const vec3 direction = three(light.direction);
+    double first = 1e30, near = 1e30, far = -1e30;
+    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
+        const Gaussian g = gaussian_of(scene.gaussians[i]);
+        const double reach = gaussian_reach(medium, g), at = dot(direction, g.center);
+        first = std::min(first, at - reach);
+        if (is_lit(g.center, reach)) {
+            near = std::min(near, at - reach);
+            far = std::max(far, at + reach);
+        }
+    }
+    Frame frame;
+    if (set_range(frame, near, far))
+        frame.after = near - first;
+    return frame;
+}
+
+Frame Fit::around(const brume_plugin_light &light) const
 {
     const Medium medium = medium_of(scene);
     const vec3 position = three(light.position), direction = three(light.direction);
-    const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL, spot = light.type == BRUME_LIGHT_SPOT && !everywhere;
+    const bool spot = light.type == BRUME_LIGHT_SPOT && !everywhere;
     const double cone = spot ? std::acos(std::clamp(double(light.cos_outer), -1.0, 1.0)) : std::numbers::pi;
     std::vector<Cap> caps;
     bool inside = false;
@@ -98,12 +179,8 @@ Frame fit(const brume_plugin_scene &scene, const brume_plugin_light &light, bool
     for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
         const Gaussian g = gaussian_of(scene.gaussians[i]);
         const double reach = gaussian_reach(medium, g);
-        if (parallel) {
-            const double at = dot(direction, g.center);
-            near = std::min(near, at - reach);
-            far = std::max(far, at + reach);
+        if (!is_lit(g.center, reach))
             continue;
-        }
         const vec3 away = g.center - position;
         const double distance = length(away);
         if (distance <= reach) {
@@ -119,44 +196,66 @@ Frame fit(const brume_plugin_scene &scene, const brume_plugin_light &light, bool
         far = std::max(far, distance + reach);
     }
     Frame frame;
-    if (!(near < far))
+    if (!set_range(frame, near, far))
         return frame;
-    frame.near = float(near);
-    frame.far = float(std::max(far, near + 1e-6 * std::max(1.0, std::abs(near))));
-    if (parallel || (!spot && (inside || !(length(middle) > 0))))
+    if (!spot && (inside || !(length(middle) > 0)))
         return frame;
-    const vec3 axis = glm::normalize(spot ? direction : middle),
-               u = glm::normalize(cross(axis, std::abs(axis.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0))), v = cross(axis, u);
-    Square square = inside ? Square{vec2(0), vec2(1)} : around(caps, u, v, axis);
+    // In the world's axes, so that the map outlives a turn of the camera.
+    const vec3 axis = glm::normalize(spot ? direction : middle), x = in_camera(*scene.camera, {1, 0, 0}),
+               y = in_camera(*scene.camera, {0, 1, 0}),
+               u = glm::normalize(cross(axis, std::abs(dot(axis, x)) < 0.6 ? x : y)), v = cross(axis, u);
+    Square square = inside ? Square{vec2(0), vec2(1)} : rims(caps, u, v, axis);
     if (spot) {
         const Square lit = within_cone(cone);
         square = {max(square.low, lit.low), min(square.high, lit.high)};
     }
-    const vec2 size = clamp(square.high - square.low, vec2(least_size), vec2(1));
-    if (size == vec2(1))
-        return frame;
-    const vec2 low = clamp(0.5 * (square.low + square.high - size), vec2(0), vec2(1) - size);
-    frame.u = in_world(*scene.camera, u);
-    frame.v = in_world(*scene.camera, v);
-    for (int i = 0; i < 2; ++i) {
-        frame.low[i] = low[i];
-        frame.size[i] = size[i];
+    if (set_window(frame, square)) {
+        frame.u = in_world(*scene.camera, u);
+        frame.v = in_world(*scene.camera, v);
     }
     return frame;
 }
 
+// But for rounding: positions are from the camera.
+bool alike(const Frame &a, const Frame &b)
+{
+    bool same = true;
+    auto compare = [&](double x, double y, double scale) { same = same && std::abs(x - y) <= 1e-3 * scale; };
+    for (size_t i = 0; i < 3; ++i) {
+        compare(a.u[i], b.u[i], std::min(a.size[0], a.size[1]));
+        compare(a.v[i], b.v[i], std::min(a.size[0], a.size[1]));
+    }
+    for (int i = 0; i < 2; ++i) {
+        compare(a.low[i], b.low[i], a.size[i]);
+        compare(a.size[i], b.size[i], a.size[i]);
+    }
+    const double depth = double(a.far) - double(a.near);
+    compare(double(b.far) - double(b.near), depth, depth);
+    compare(a.after, b.after, depth);
+    return same;
+}
+
 }  // namespace
 
-void Frames::place(const brume_plugin_scene &scene, const ShadowLists &lists, bool everywhere, bool moved)
+bool Frames::place(const brume_plugin_scene &scene, const ShadowLists &lists, int width, int height, bool everywhere,
+                   bool moved)
 {
     frames_.resize(scene.light_count);
     texels.resize(size_t(scene.light_count) * 12);
+    const Fit fit{scene, View(*scene.camera, width, height), everywhere};
+    bool again = moved;
     for (uint32_t l = 0; l < scene.light_count; ++l) {
         const brume_plugin_light &light = scene.lights[l];
         const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
+        const Frame fitted = parallel ? fit.across(light) : fit.around(light);
         Frame &frame = frames_[l];
-        if (moved || parallel)
-            frame = fit(scene, light, everywhere);
+        if (moved || !alike(frame, fitted)) {
+            frame = fitted;
+            again = true;
+        } else if (parallel) {
+            frame.near = fitted.near;
+            frame.far = fitted.far;
+        }
         float *texel = &texels[12 * l];
         std::copy_n(&lists.origins[12 * (1 + l)], 8, texel);
         for (int axis = 0; axis < 2 && !parallel; ++axis) {
@@ -170,6 +269,7 @@ void Frames::place(const brume_plugin_scene &scene, const ShadowLists &lists, bo
         texel[10] = float(frame.size[0]);
         texel[11] = float(frame.size[1]);
     }
+    return again;
 }
 
 }  // namespace airlight::maps

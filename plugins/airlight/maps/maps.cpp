@@ -191,13 +191,14 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
         return s;
     if (scene.light_count == 0)
         return BRUME_OK;
-    m.placed.place(scene, state.lists, state.parameters.orders == Orders::all, moved);
+    const bool again =
+        m.placed.place(scene, state.lists, state.width, state.height, state.parameters.orders == Orders::all, moved);
     if (brume_status s = upload(services, host, upload_attenuation_frames, 4, m.placed.texels, m.frames))
         return s;
     m.settings.gaussians = int(scene.gaussian_count);
     m.settings.angle = float(maps::fineness_of(state.parameters.max_error).angle *
                              std::clamp(1.5 * (1 - std::abs(double(scene.medium->asymmetry))), 0.2, 1.0));
-    m.maps_pending = m.maps_pending || moved;
+    m.maps_pending = m.maps_pending || again;
     m.grid_pending = true;
     m.in_grid = ivec2(0);
     return BRUME_OK;
