@@ -11,7 +11,6 @@
 #include "orders.h"
 #include "passes.h"
 #include "scene_maths.hpp"
-#include "shadow_maps.h"
 #include "state.h"
 
 namespace airlight {
@@ -103,13 +102,16 @@ brume_status Planner::explain_orders()
 
 brume_status Planner::plan_shadows()
 {
-    const std::string count = std::to_string(shadowed_lights(scene_));
-    if (count == "0")
+    uint32_t brought = 0, made = 0;
+    for (uint32_t l = 0; l < scene_.light_count; ++l)
+        if (const brume_plugin_light &light = scene_.lights[l]; light.shadow_kind > 0)
+            ++(light.shadow_screen > 0 ? made : brought);
+    if (brought > 0 && !request_.layers[layer_shadow])
+        if (brume_status s =
+                drop("shadows", std::to_string(brought) + " lights have a shadow map; frames bring no layer shadow"))
+            return s;
+    if (made == 0 && (brought == 0 || !request_.layers[layer_shadow]))
         return BRUME_OK;
-    if (!request_.layers[layer_shadow])
-        return drop("shadows", count + " lights have a shadow map; frames bring no layer shadow");
-    if (shadowed_lights(scene_) > most_shadow_maps)
-        return fail("lights: " + count + " with a shadow map; expected at most " + std::to_string(most_shadow_maps));
     const Tier tier = state_->parameters.tier;
     if (is_published(tier))
         return fail(std::string("tier: ") + (tier == Tier::sun ? "sun" : "fogshop") +
@@ -277,9 +279,6 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 brume_status execute(const brume_services *services, brume_host host, void *opaque, const brume_plugin_frame *frame)
 {
     State &state = *static_cast<State *>(opaque);
-    if (state.shadowed)
-        if (const std::string problem = take_shadow_maps(*frame, state); !problem.empty())
-            return services->fail(host, BRUME_ERROR_ARGUMENT, problem.c_str());
     if (state.lit)
         if (brume_status s = refresh(*services, host, *frame->scene, state))
             return s;

@@ -23,13 +23,16 @@ static_assert(std::size(blobs_slots) == blobs::slot_count);
 constexpr brume_slot around_slots[] = {fetch("depth"), fetch("lights"), write("surroundings")};
 static_assert(std::size(around_slots) == around::slot_count);
 
-constexpr brume_slot gather_slots[] = {
-    fetch("depth"),          fetch("gaussian_density"),  fetch("tiles"),         fetch("gaussians"),
-    fetch("lights"),         fetch("tile_gaussians"),    fetch("cells"),         fetch("cell_gaussians"),
-    fetch("shadow_origins"), fetch("blob_density"),      fetch("sun_table"),     fetch("surroundings"),
-    fetch("environment"),    fetch("environment_table"), fetch("light_shadows"), fetch("shadow_0"),
-    fetch("shadow_1"),       fetch("shadow_2"),          fetch("shadow_3"),      write("radiance"),
-    write("error"),          write("distances")};
+constexpr brume_slot gather_slots[] = {fetch("depth"),          fetch("gaussian_density"),
+                                       fetch("tiles"),          fetch("gaussians"),
+                                       fetch("lights"),         fetch("tile_gaussians"),
+                                       fetch("cells"),          fetch("cell_gaussians"),
+                                       fetch("shadow_origins"), fetch("blob_density"),
+                                       fetch("sun_table"),      fetch("surroundings"),
+                                       fetch("environment"),    fetch("environment_table"),
+                                       fetch("light_shadows"),  fetch("shadow_maps"),
+                                       write("radiance"),       write("error"),
+                                       write("distances")};
 static_assert(std::size(gather_slots) == gather::slot_count);
 
 constexpr brume_slot compose_slots[] = {fetch("color"),
@@ -155,8 +158,7 @@ brume_status Frame::gather(const Constants &constants, brume_plugin_image to, br
     images[environment] = state_.environment;
     images[environment_table] = state_.environment_table;
     images[light_shadows] = product(product_light_shadows);
-    for (uint32_t i = 0; i < most_shadow_maps; ++i)
-        images[shadow_0 + i] = state_.shadow_maps[i].image;
+    images[shadow_maps] = product(product_light_shadows, 1);
     images[radiance] = to;
     images[error] = to_error;
     images[distances] = to_distances;

@@ -28,7 +28,7 @@ struct WideMap {
                 values[size_t(y) * size_t(p.width) + size_t(x)] = *at(p, x, y);
         texture = {values.data(), p.width, p.width, p.height, 1};
     }
-    WideMap(WideMap &&) = default;
+    WideMap(const WideMap &) = delete;
 
     std::vector<double> values;
     Texture texture;
@@ -54,11 +54,9 @@ brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first,
         lights.push_back(light_at(light_data.texture(), int(i)));
     const Data environment = copy_of(slots[gather::environment]);
     const Data environment_table = copy_of(slots[gather::environment_table]);
-    const Data light_shadows = light_shadows_of(scene);
+    const Data light_shadows = copy_of(slots[gather::light_shadows]);
     const Texture shadow_texels = light_shadows.texture();
-    std::vector<WideMap> maps;
-    for (int i = 0; i < int(most_shadow_maps); ++i)
-        maps.emplace_back(slots[gather::shadow_0 + i]);
+    const WideMap maps(slots[gather::shadow_maps]);
     const int environment_order = constants.airlight.environment_order;
     const brume::maths_float::AirlightSettings &settings = constants.airlight;
     const Data planes = copy_of(slots[gather::surroundings]);
@@ -68,8 +66,7 @@ brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first,
     brume::airlight::ReferenceScene seen{medium_of(scene), gaussians, lights, camera, settings.orders, around};
     seen.shadowed = settings.shadowed;
     seen.light_shadows = &shadow_texels;
-    for (size_t i = 0; i < maps.size(); ++i)
-        seen.shadows[i] = &maps[i].texture;
+    seen.shadow_maps = &maps.texture;
     return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.size);
         const Ray ray = pixel_ray(camera, vec2(pixel) + 0.5, *at(depth, pixel.x, pixel.y));

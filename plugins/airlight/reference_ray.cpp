@@ -121,20 +121,18 @@ public:
 private:
     void find_shadows(int light, double distance)
     {
-        const int slot = shadow_slot(scene_.shadowed, light);
-        if (slot < 0)
+        if (!scene_.shadowed)
             return;
-        const Texture none;
-        auto map = [&](int i) -> const Texture & { return scene_.shadows[i] ? *scene_.shadows[i] : none; };
-        const Texture &light_shadows = *scene_.light_shadows, &shadow_0 = map(0), &shadow_1 = map(1), &shadow_2 = map(2),
-                      &shadow_3 = map(3);
+        const Texture &light_shadows = *scene_.light_shadows, &shadow_maps = *scene_.shadow_maps;
         const double reach = scene_.gaussians.empty() ? terms_range(scene_.medium, Sight{direction_, distance, 0, 0}).y
                                                       : std::min(distance, quadrature_limit);
-        const ShadowRay ray = shadow_ray(scene_.camera, SHADOW_MAP_PASSED, slot, light, direction_, reach);
+        const ShadowRay ray = shadow_ray(scene_.camera, SHADOW_MAP_PASSED, scene_.shadowed, light, direction_, reach);
+        if (ray.kind == 0)
+            return;
         edges_.push_back(-1);  // so that a ray of which nothing is lit has edges, too
         edges_.push_back(-1);
-        for (LitWalk walk = next_lit(SHADOW_MAP_PASSED, ray, lit_walk(0), distance); walk.part.x < walk.part.y;
-             walk = next_lit(SHADOW_MAP_PASSED, ray, walk, distance)) {
+        for (LitWalk walk = next_lit(shadow_maps, ray, lit_walk(0), distance); walk.part.x < walk.part.y;
+             walk = next_lit(shadow_maps, ray, walk, distance)) {
             edges_.push_back(walk.part.x);
             edges_.push_back(walk.part.y);
         }

@@ -14,10 +14,9 @@ struct ReferenceScene {
     int orders = maths_double::orders_single;
     std::span<const maths_double::Surroundings> around{};  // of each light; none: endless fog
 
-    // Shadow maps, where shadowed names any.
-    maths_double::ivec4 shadowed{};
+    int shadowed = 0;  // 1: some light has a shadow map
     const maths_double::Texture *light_shadows = nullptr;
-    const maths_double::Texture *shadows[4] = {};
+    const maths_double::Texture *shadow_maps = nullptr;
 };
 
 struct ReferenceAirlight {

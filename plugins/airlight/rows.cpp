@@ -63,9 +63,8 @@ brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t l
                   surroundings = texture_of(slots[gather::surroundings]),
                   environment = texture_of(slots[gather::environment]),
                   environment_table = texture_of(slots[gather::environment_table]),
-                  light_shadows = texture_of(slots[gather::light_shadows]), shadow_0 = texture_of(slots[gather::shadow_0]),
-                  shadow_1 = texture_of(slots[gather::shadow_1]), shadow_2 = texture_of(slots[gather::shadow_2]),
-                  shadow_3 = texture_of(slots[gather::shadow_3]);
+                  light_shadows = texture_of(slots[gather::light_shadows]),
+                  shadow_maps = texture_of(slots[gather::shadow_maps]);
     const brume_plugin_pixels &error = slots[gather::error], &distances = slots[gather::distances];
     return for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.size);

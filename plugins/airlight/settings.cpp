@@ -24,8 +24,7 @@ AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene
     s.culled = scene.gaussian_count > 0 ? 0.3f * reach_share : 0.0f;
     brume::airlight::set_quality(s, state.parameters.max_error);
     s.orders = state.parameters.orders == Orders::all ? orders_all : orders_single;
-    for (int i = 0; i < int(most_shadow_maps); ++i)
-        s.shadowed[i] = state.shadow_maps[i].light + 1;
+    s.shadowed = state.shadowed;
     return s;
 }
 

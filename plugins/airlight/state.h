@@ -42,13 +42,6 @@ enum Upload : uint32_t {
     upload_attenuation_frames
 };
 
-constexpr uint32_t most_shadow_maps = 4;
-
-struct ShadowMap {
-    int32_t light = -1;
-    brume_plugin_image image = nullptr;
-};
-
 // What one plan of this effect holds. Images that a plan does not need are NULL.
 struct State {
     Parameters parameters;
@@ -57,7 +50,7 @@ struct State {
     bool lit = false;                        // some light or environment scatters in the medium
     bool attenuates = false;                 // no effect before this one does
     bool layered = false;                    // a layer of the caller's stands for the medium's density
-    bool shadowed = false;                   // some light has a shadow map, which frames bring
+    bool shadowed = false;                   // some light has a shadow map
     bool has_blobs = false;                  // tier fogshop, in a medium with Gaussians
     brume_plugin_image radiance = nullptr;   // airlight of one pixel per square
     brume_plugin_image error = nullptr;      // its estimated error
@@ -78,8 +71,6 @@ struct State {
     brume_plugin_camera camera{};
     double position[3] = {};
     bool fresh = false;
-
-    ShadowMap shadow_maps[most_shadow_maps];  // of the frame at hand
 
     Maps maps;
 

@@ -60,7 +60,7 @@ private:
     brume_status plan_normals(double pixels);
     brume_status explain_material();
     brume_status plan_method();
-    brume_status plan_shadows(double pixels);
+    bool has_shadows() const;
     brume_status plan_groups(double pixels, double of_light);
 
     const brume_services &services_;
@@ -163,19 +163,11 @@ brume_status Planner::plan_method()
     return services_.upload(host_, upload_table, channels, table.data(), table.size() / size_t(channels), &state_->table);
 }
 
-brume_status Planner::plan_shadows(double pixels)
+bool Planner::has_shadows() const
 {
-    const auto count = std::count_if(scene_.lights, scene_.lights + scene_.light_count,
-                                     [](const brume_plugin_light &light) { return light.shadow_kind > 0; });
-    if (!request_.layers[layer_shadow] || count == 0)
-        return BRUME_OK;
-    if (brume_status s = image("surface shadows", state_->shadows))
-        return s;
-    const double maps = std::min(double(count), double(most_shadow_maps));
-    return entry(true, "shadows",
-                 "what is in the shadow of " + std::to_string(count) + " lights" +
-                     (count > most_shadow_maps ? ", of which the first " + std::to_string(most_shadow_maps) + " count" : ""),
-                 pixels * (4 + 16 + 4 * maps), pixels * 100 * maps);
+    return std::any_of(scene_.lights, scene_.lights + scene_.light_count, [&](const brume_plugin_light &light) {
+        return light.shadow_kind > 0 && (light.shadow_screen > 0 || request_.layers[layer_shadow]);
+    });
 }
 
 brume_status Planner::plan_groups(double pixels, double of_light)
@@ -209,8 +201,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     if (brume_status s = plan_method())
         return s;
-    if (brume_status s = plan_shadows(pixels))
-        return s;
+    state_->shadowed = has_shadows();
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
     if (!followed)

@@ -23,14 +23,11 @@ constexpr brume_slot group_slots[] = {fetch("rest"),    fetch("lit"),      fetch
                                       write("lit_out")};
 static_assert(std::size(group_slots) == group::slot_count);
 
-constexpr brume_slot shadows_slots[] = {fetch("depth"),    fetch("light_shadows"), fetch("shadow_0"), fetch("shadow_1"),
-                                        fetch("shadow_2"), fetch("shadow_3"),      write("shadows")};
-static_assert(std::size(shadows_slots) == shadows::slot_count);
-
-constexpr brume_slot compose_slots[] = {fetch("color"),       fetch("rest"),    fetch("lit"),       fetch("depth"),
-                                        fetch("normals"),     fetch("lights"),  fetch("ungrouped"), fetch("gaussians"),
-                                        fetch("environment"), fetch("table"),   fetch("albedo"),    fetch("specular"),
-                                        fetch("roughness"),   fetch("shadows"), write("result"),    write("surface_out")};
+constexpr brume_slot compose_slots[] = {
+    fetch("color"),  fetch("rest"),       fetch("lit"),       fetch("depth"),         fetch("normals"),
+    fetch("lights"), fetch("ungrouped"),  fetch("gaussians"), fetch("environment"),   fetch("table"),
+    fetch("albedo"), fetch("specular"),   fetch("roughness"), fetch("light_shadows"), fetch("shadow_maps"),
+    write("result"), write("surface_out")};
 static_assert(std::size(compose_slots) == compose::slot_count);
 
 constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, settings, method),
@@ -79,20 +76,21 @@ public:
         constants_.settings.world_normals = normal.image && normal.kind == BRUME_LAYER_WORLD;
         const bool glossy = frame.layers[layer_specular].image && frame.layers[layer_roughness].image;
         constants_.settings.material = frame.layers[layer_albedo].image ? (glossy ? 2 : 1) : 0;
+        constants_.settings.shadowed = state.shadowed;
         normals_ = normal.image ? normal.image : state.normals;
         constants_.first = 1;
     }
 
     brume_status upload();
     brume_status normals();
-    brume_status shadows();
     brume_status groups();
     brume_status compose();
 
 private:
-    brume_plugin_image product(Product of) const
+    brume_plugin_image product(Product of, uint32_t index = 0) const
     {
-        return frame_.products[of].image_count ? frame_.products[of].images[0] : nullptr;
+        const brume_plugin_product &product = frame_.products[of];
+        return index < product.image_count ? product.images[index] : nullptr;
     }
     bool lights_surfaces(uint32_t light) const { return scene_.lights[light].surfaces != float(BRUME_SURFACES_UNLIT); }
     brume_plugin_image group_of(uint32_t light) const
@@ -141,25 +139,6 @@ brume_status Frame::normals()
     return run(state_.normals_pass, images);
 }
 
-brume_status Frame::shadows()
-{
-    using namespace surface::shadows;
-    const brume_plugin_image *given = frame_.layers[layer_shadow].of_lights;
-    if (!state_.shadows || !given)
-        return BRUME_OK;
-    brume_plugin_image images[slot_count] = {};
-    uint32_t slot = 0;
-    for (uint32_t l = 0; l < scene_.light_count && slot < most_shadow_maps; ++l)
-        if (scene_.lights[l].shadow_kind > 0 && given[l]) {
-            constants_.settings.shadowed[int(slot)] = int32_t(l) + 1;
-            images[shadow_0 + slot++] = given[l];
-        }
-    images[depth] = frame_.depth;
-    images[light_shadows] = product(product_light_shadows);
-    images[Slot::shadows] = state_.shadows;
-    return run(state_.shadows_pass, images);
-}
-
 brume_status Frame::groups()
 {
     using namespace surface::group;
@@ -206,7 +185,8 @@ brume_status Frame::compose()
     images[albedo] = frame_.layers[layer_albedo].image;
     images[specular] = frame_.layers[layer_specular].image;
     images[roughness] = frame_.layers[layer_roughness].image;
-    images[Slot::shadows] = state_.shadows;
+    images[light_shadows] = product(product_light_shadows);
+    images[shadow_maps] = product(product_light_shadows, 1);
     images[result] = frame_.output;
     images[surface_out] = frame_.layers[layer_surface].image;
     return run(state_.compose_pass, images);
@@ -219,9 +199,6 @@ brume_status create_passes(const brume_services &services, brume_host host, Stat
     const bool reference = state.method == Method::reference;
     if (state.normals)
         if (brume_status s = create_pass(services, host, "normals", normals_slots, normals_rows, state.normals_pass))
-            return s;
-    if (state.shadows)
-        if (brume_status s = create_pass(services, host, "shadows", shadows_slots, shadows_rows, state.shadows_pass))
             return s;
     if (state.rest[0])
         if (brume_status s = create_pass(services, host, "group", group_slots, reference ? group_reference_rows : group_rows,
@@ -237,8 +214,6 @@ brume_status run_passes(const brume_services &services, brume_host host, const b
     if (brume_status s = passes.upload())
         return s;
     if (brume_status s = passes.normals())
-        return s;
-    if (brume_status s = passes.shadows())
         return s;
     if (brume_status s = passes.groups())
         return s;

@@ -52,19 +52,15 @@ enum Slot {
     albedo,
     specular,
     roughness,
-    shadows,
+    light_shadows,
+    shadow_maps,
     result,
     surface_out,
     slot_count
 };
 }
 
-namespace shadows {
-enum Slot { depth, light_shadows, shadow_0, shadow_1, shadow_2, shadow_3, shadows, slot_count };
-}
-
 brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
-brume_status shadows_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status group_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last);

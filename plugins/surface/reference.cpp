@@ -124,9 +124,13 @@ brume_status group_reference_rows(const brume_plugin_rows *call, int32_t first, 
 
 brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
+    namespace narrow = brume::maths_float;
     const Constants &constants = *static_cast<const Constants *>(call->constants);
     const World world(*call);
+    const narrow::Camera camera = narrow::camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
+    const narrow::Texture light_shadows = narrow::texture_of(slots[compose::light_shadows]),
+                          shadow_maps = narrow::texture_of(slots[compose::shadow_maps]);
     const brume_plugin_pixels &sky_pixels = slots[compose::environment], &ungrouped = slots[compose::ungrouped];
     const Data environment =
         sky_pixels.data ? Data(sky_pixels.data, size_t(sky_pixels.width) * size_t(sky_pixels.height), sky_pixels.channels)
@@ -140,12 +144,11 @@ brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first
             const Material material =
                 world.material_at(slots[compose::albedo], slots[compose::specular], slots[compose::roughness], x, y);
             const vec3 rest = finite_or_zero(constants.first ? vec3(source) : wide(slots[compose::rest], x, y));
-            const vec4 lit =
-                slots[compose::shadows].data ? vec4(brume_pixels::load(slots[compose::shadows], x, y)) : vec4(1);
-            const auto &s = world.around.shadowed;
             vec3 all(0), sum = rest;
             auto irradiance = [&](size_t l) {
-                return lit_by_map(ivec4(s.x, s.y, s.z, s.w), lit, int(l)) * clear_irradiance(surface, world.lights[l]);
+                const narrow::Surface point{true, narrow::vec3(surface.point), narrow::vec3(surface.normal)};
+                return double(narrow::lit_by_map(camera, world.around.shadowed, SHADOW_MAP_PASSED, point, int(l))) *
+                       clear_irradiance(surface, world.lights[l]);
             };
             auto shares = [&](size_t l) { return at(ungrouped, int(l % 1024), int(l / 1024))[0] != 0; };
             for (size_t l = 0; l < world.lights.size(); ++l)

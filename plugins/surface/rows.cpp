@@ -35,21 +35,6 @@ brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t 
     });
 }
 
-brume_status shadows_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
-{
-    using namespace shadows;
-    const brume_plugin_pixels *slots = call->slots;
-    const ivec4 shadowed = constants_of(*call).settings.shadowed;
-    const Camera camera = camera_of(*call->scene);
-    const Texture light_shadows = texture_of(slots[Slot::light_shadows]), shadow_0 = texture_of(slots[Slot::shadow_0]),
-                  shadow_1 = texture_of(slots[Slot::shadow_1]), shadow_2 = texture_of(slots[Slot::shadow_2]),
-                  shadow_3 = texture_of(slots[Slot::shadow_3]);
-    return for_pixels(*call, first, last, [&](int x, int y) {
-        const Ray ray = pixel_ray(camera, pixel_centre(x, y), *at(slots[depth], x, y));
-        store(slots[Slot::shadows], x, y, lit_by_maps(camera, shadowed, SHADOW_MAP_PASSED, ray));
-    });
-}
-
 brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     const Constants &constants = constants_of(*call);
@@ -83,7 +68,9 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
     const Texture lights = texture_of(slots[compose::lights]), ungrouped = texture_of(slots[compose::ungrouped]),
                   gaussians = texture_of(slots[compose::gaussians]), environment = texture_of(slots[compose::environment]),
                   table = texture_of(slots[compose::table]), albedo = texture_of(slots[compose::albedo]),
-                  specular = texture_of(slots[compose::specular]), roughness = texture_of(slots[compose::roughness]);
+                  specular = texture_of(slots[compose::specular]), roughness = texture_of(slots[compose::roughness]),
+                  light_shadows = texture_of(slots[compose::light_shadows]),
+                  shadow_maps = texture_of(slots[compose::shadow_maps]);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const vec4 source = load(slots[compose::color], x, y);
         const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[compose::depth], x, y),
@@ -91,9 +78,8 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
         const Divided divided = constants.first
                                     ? Divided{vec3(source), vec3(0.0f)}
                                     : Divided{vec3(load(slots[compose::rest], x, y)), vec3(load(slots[compose::lit], x, y))};
-        const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, surface,
+        const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface,
                                  material_at(constants.settings.material, albedo, specular, roughness, ivec2(x, y)),
-                                 slots[compose::shadows].data ? load(slots[compose::shadows], x, y) : vec4(1.0f),
                                  vec3(source), divided, call->scene->output_limit);
         store(slots[compose::result], x, y, vec4(shown, source.w));
         if (slots[compose::surface_out].data)

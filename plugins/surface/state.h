@@ -26,9 +26,6 @@ enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_table };
 // Of more Gaussians than these the light's way is not followed through: each costs every pixel and lamp.
 constexpr uint32_t most_gaussians = 256;
 
-// Of whose light the picture's shares know the shadows: a channel each.
-constexpr uint32_t most_shadow_maps = 4;
-
 // What one plan of this effect holds. Images and passes that a plan does not need are NULL.
 struct State {
     int width = 0;
@@ -40,14 +37,13 @@ struct State {
     brume_plugin_image rest[2] = {};
     brume_plugin_image lit[2] = {};
 
-    brume_plugin_image shadows = nullptr;  // which maps let their light onto each pixel
+    bool shadowed = false;  // some light has a shadow map
 
     brume_plugin_image table = nullptr;  // the method's
     brume_plugin_image ungrouped = nullptr, environment = nullptr;
     std::vector<float> ungrouped_values, environment_values;
 
     brume_pass normals_pass = nullptr;
-    brume_pass shadows_pass = nullptr;
     brume_pass group_pass = nullptr;
     brume_pass compose_pass = nullptr;
 };

@@ -25,7 +25,7 @@ DENSITY_CONSTANT, DENSITY_EXPONENTIAL = range(2)
 MAX_DENSITY_TERMS = 16
 MAX_GAUSSIANS = 1000000
 LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL = range(3)
-SHADOW_NONE, SHADOW_PERSPECTIVE, SHADOW_ORTHOGRAPHIC, SHADOW_LATLONG = range(4)
+SHADOW_NONE, SHADOW_PERSPECTIVE, SHADOW_ORTHOGRAPHIC, SHADOW_LATLONG, SHADOW_SCREEN = range(5)
 SURFACES_LIT, SURFACES_UNLIT = range(2)
 MAX_LIGHTS = 4096
 CAMERA_FIELD_OF_VIEW, CAMERA_POSE = 1, 2
@@ -94,7 +94,7 @@ class brume_light(Structure):
                 ("intensity", c_double * 3), ("radius", c_double), ("angle", c_double), ("penumbra", c_double),
                 ("distance", c_double), ("shadow_kind", c_uint32), ("shadow_depth", c_uint32),
                 ("shadow_extent", c_double), ("shadow_to_world", c_double * 16), ("surfaces", c_uint32),
-                ("reserved", c_uint32)]
+                ("reserved", c_uint32), ("shadow_range", c_double * 2)]
 
 
 class brume_camera(Structure):

@@ -88,7 +88,7 @@ Light read_light(const brume_light *given, const std::string &name)
                        &brume_light::intensity, &brume_light::radius, &brume_light::angle, &brume_light::penumbra,
                        &brume_light::distance, &brume_light::shadow_kind, &brume_light::shadow_depth,
                        &brume_light::shadow_extent, &brume_light::shadow_to_world, &brume_light::surfaces,
-                       &brume_light::reserved);
+                       &brume_light::reserved, &brume_light::shadow_range);
     if (read.reserved)
         expect(false, name + ".reserved", read.reserved, "0");
     Light light{
@@ -97,6 +97,7 @@ Light read_light(const brume_light *given, const std::string &name)
     light.shadow.kind = read.shadow_kind;
     light.shadow.depth = read.shadow_depth;
     light.shadow.extent = read.shadow_extent;
+    light.shadow.range = {read.shadow_range[0], read.shadow_range[1]};
     std::copy_n(read.shadow_to_world, 16, light.shadow.to_world.begin());
     light.surfaces = read.surfaces;
     check_light(light, name);

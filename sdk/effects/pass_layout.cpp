@@ -10,6 +10,8 @@
 namespace brume {
 namespace {
 
+// As many of a compute shader as every OpenGL 4.5 has.
+constexpr uint32_t most_read = 16, most_written = 8;
 constexpr uint32_t most_slots = 32, most_constants = 256, largest_constants = 16384;
 
 template <class... Arguments>
@@ -59,6 +61,11 @@ PassLayout layout_of(const brume_pass_desc &desc)
                    slot.access);
         layout.slots.push_back({std::move(name), slot.access});
     }
+    const auto written = uint32_t(std::count_if(layout.slots.begin(), layout.slots.end(),
+                                                [](const auto &slot) { return slot.access == BRUME_ACCESS_WRITE; }));
+    if (written > most_written || desc.slot_count - written > most_read)
+        refuse(layout.name, "{} slots to read and {} to write; expected at most {} and {}, which every OpenGL 4.5 has",
+               desc.slot_count - written, written, most_read, most_written);
     layout.constant_size = desc.constant_size;
     for (uint32_t i = 0; i < desc.constant_count; ++i) {
         const brume_constant &constant = desc.constants[i];

@@ -18,15 +18,6 @@ namespace {
 // Mesa's software GL ends all loops of a shader's invocation after 65,535 turns and goes on with what it has by then.
 constexpr float most_on_llvmpipe = 500;
 
-enum Upload : uint32_t {
-    upload_of_gaussians,
-    upload_of_tiles,
-    upload_of_tile_gaussians,
-    upload_of_lights,
-    upload_of_light_shadows,
-    upload_of_visible_lights
-};
-
 constexpr brume_slot gaussian_slots[] = {{"depth", BRUME_ACCESS_FETCH, 0},
                                          {"gaussians", BRUME_ACCESS_FETCH, 0},
                                          {"tiles", BRUME_ACCESS_FETCH, 0},
@@ -80,8 +71,9 @@ void HostProducts::plan(brume_host_t &host, const std::vector<std::string> &uses
     width_ = width;
     height_ = height;
     lights_ = used("lights");
-    light_shadows_ = used("light_shadows");
     visible_lights_ = used("visible_lights");
+    if (used("light_shadows"))
+        shadow_maps_.plan(host, scene, layers);
     layer_ = layers.has_input("optical_depth") ? 1 : layers.has_input("transmittance") ? 2 : 0;
     const bool gaussians =
         scene.gaussian_count > 0 && (used("gaussians") || used("gaussian_density") || (used("density") && !layer_));
@@ -140,20 +132,11 @@ void HostProducts::upload_gaussians(brume_host_t &host, const brume_plugin_scene
 void HostProducts::upload_lights(brume_host_t &host, const brume_plugin_scene &scene)
 {
     std::vector<float> texels(size_t(scene.light_count) * 16);
-    auto publish = [&](const char *product, Upload slot, bool any, auto first_float) {
-        for (uint32_t i = 0; i < scene.light_count; ++i)
-            std::copy_n(first_float(scene.lights[i]), 16, &texels[16 * i]);
-        const brume_plugin_image image = any ? host.upload(slot, 4, texels.data(), texels.size() / 4) : nullptr;
-        host.publish(product, &image, image ? 1 : 0, scene.light_count, uploads_);
-    };
-    if (lights_)
-        publish("lights", upload_of_lights, scene.light_count > 0,
-                [](const brume_plugin_light &light) { return light.position; });
-    const bool shadows = std::any_of(scene.lights, scene.lights + scene.light_count,
-                                     [](const brume_plugin_light &light) { return light.shadow_kind > 0; });
-    if (light_shadows_)
-        publish("light_shadows", upload_of_light_shadows, shadows,
-                [](const brume_plugin_light &light) { return light.shadow_rows[0]; });
+    for (uint32_t i = 0; i < scene.light_count; ++i)
+        std::copy_n(scene.lights[i].position, 16, &texels[16 * i]);
+    const brume_plugin_image image =
+        texels.empty() ? nullptr : host.upload(upload_of_lights, 4, texels.data(), texels.size() / 4);
+    host.publish("lights", &image, image ? 1 : 0, scene.light_count, uploads_);
 }
 
 void HostProducts::upload_visible_lights(brume_host_t &host, const brume_plugin_scene &scene)
@@ -177,7 +160,8 @@ void HostProducts::upload(brume_host_t &host, const brume_plugin_scene &scene)
         return;
     uploaded_ = false;  // should one of these throw
     ++uploads_;
-    upload_lights(host, scene);
+    if (lights_)
+        upload_lights(host, scene);
     if (visible_lights_)
         upload_visible_lights(host, scene);
     if (gaussian_density_)
@@ -192,6 +176,7 @@ void HostProducts::execute(brume_host_t &host, const brume_plugin_scene &scene, 
                            const FrameLayers &layers)
 {
     upload(host, scene);
+    shadow_maps_.execute(host, scene, depth, layers);
     if (gaussian_density_) {
         const brume_plugin_image images[] = {depth, gaussians_, tiles_, tile_gaussians_, gaussian_density_};
         run(host, gaussian_pass_, images, width_, height_);

@@ -6,8 +6,19 @@
 #include "gaussians/gaussian_tiles.h"
 #include "plan/layers.h"
 #include "plan/products.h"
+#include "plan/shadow_maps.h"
 
 namespace brume {
+
+// Of the host's data images.
+enum HostUpload : uint32_t {
+    upload_of_gaussians,
+    upload_of_tiles,
+    upload_of_tile_gaussians,
+    upload_of_lights,
+    upload_of_light_shadows,
+    upload_of_visible_lights
+};
 
 // What the host makes of the scene for effects, as brume_plugin_product lists it: made only where something uses it. Its
 // passes are services' like an effect's.
@@ -29,12 +40,13 @@ private:
     float longest_list() const;
 
     int32_t width_ = 0, height_ = 0;
-    bool lights_ = false, light_shadows_ = false, visible_lights_ = false;
+    bool lights_ = false, visible_lights_ = false;
     int layer_ = 0;  // what the caller gives in place of the scene's density: 0 nothing, 1 optical depth, 2 transmittance
     brume_plugin_image density_ = nullptr, density_rgb_ = nullptr, gaussian_density_ = nullptr;  // null: not made
     brume_pass density_pass_ = nullptr, gaussian_pass_ = nullptr;
     brume_plugin_image gaussians_ = nullptr, tiles_ = nullptr, tile_gaussians_ = nullptr;
     GaussianTiles lists_;
+    ShadowMaps shadow_maps_;
     std::vector<float> spheres_;
 
     // What was uploaded.

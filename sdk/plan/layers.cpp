@@ -232,4 +232,10 @@ brume_plugin_image FrameLayers::input(std::string_view name) const
     return at < 0 ? nullptr : images_[size_t(at)].image.get();
 }
 
+const brume_plugin_image *FrameLayers::inputs_of_lights(std::string_view name) const
+{
+    const int at = index_of(name, BRUME_LAYER_INPUT);
+    return at < 0 || !images_[size_t(at)].there ? nullptr : images_[size_t(at)].of_lights.data();
+}
+
 }  // namespace brume

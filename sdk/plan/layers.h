@@ -48,6 +48,8 @@ public:
     void see(const std::vector<int> &places, std::vector<brume_plugin_layer> &out) const;
     std::vector<int> places(const std::vector<Layer> &table) const;
     brume_plugin_image input(std::string_view name) const;
+    // Of each light; null where the frame brings none.
+    const brume_plugin_image *inputs_of_lights(std::string_view name) const;
 
 private:
     // An image of the frame at hand, or one for each light.

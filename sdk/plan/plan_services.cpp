@@ -86,6 +86,15 @@ brume_plugin_image brume_host_t::create_image(const char *label, int32_t width, 
     return images_.back().get();
 }
 
+void brume_host_t::drop_image(brume_plugin_image image)
+{
+    const auto at = std::find_if(images_.begin(), images_.end(), [&](const auto &mine) { return mine.get() == image; });
+    if (at == images_.end())
+        return;
+    image_bytes_ -= uint64_t(image->width) * uint64_t(image->height) * uint64_t(image->channels) * 4;
+    images_.erase(at);
+}
+
 brume_pass brume_host_t::create_pass(const brume_pass_desc &desc)
 {
     PassLayout layout = layout_of(desc);

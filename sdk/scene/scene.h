@@ -76,7 +76,8 @@ struct LightShadow {
     uint32_t depth = BRUME_DEPTH_PLANAR;
     Number extent = 0.0;  // as brume_light.shadow_extent
     std::array<Number, 16> to_world{};
-    std::string file;  // map named by the scene's text
+    std::array<double, 2> range{};  // as brume_light.shadow_range
+    std::string file;               // map named by the scene's text
 };
 
 struct Light {

@@ -108,6 +108,17 @@ void check_gaussian(const Gaussian &gaussian, const std::string &name)
 
 namespace {
 
+void check_range(const LightShadow &shadow, const std::string &name)
+{
+    const auto [first, last] = shadow.range;
+    const bool parallel = shadow.kind == BRUME_SHADOW_ORTHOGRAPHIC;
+    const bool right = parallel ? std::isfinite(first) && std::isfinite(last) : first > 0 && last > 0;
+    if (!right || !(first < last || first > last))
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_range: ({}, {}); expected {}", name, first, last,
+                                parallel ? "two finite distances that differ" : "two distances above 0 that differ"));
+}
+
 void check_shadow(const Light &light, const std::string &name)
 {
     const LightShadow &shadow = light.shadow;
@@ -115,14 +126,18 @@ void check_shadow(const Light &light, const std::string &name)
         return;
     const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
     const bool around = shadow.kind == BRUME_SHADOW_LATLONG;
+    if (shadow.kind == BRUME_SHADOW_SCREEN && !parallel)
+        return;
     if (shadow.kind != (parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE) && (parallel || !around))
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("{}.shadow_kind: {}; expected BRUME_SHADOW_NONE or {}", name, shadow.kind,
                                 parallel ? "_ORTHOGRAPHIC for a directional light"
-                                         : "_PERSPECTIVE or _LATLONG for a point or spot light"));
-    if (shadow.depth != BRUME_DEPTH_PLANAR && shadow.depth != BRUME_DEPTH_RAY)
+                                         : "_PERSPECTIVE, _LATLONG or _SCREEN for a point or spot light"));
+    if (shadow.depth != BRUME_DEPTH_PLANAR && shadow.depth != BRUME_DEPTH_RAY && shadow.depth != BRUME_DEPTH_DEVICE)
         throw Error(BRUME_ERROR_ARGUMENT,
-                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY", name, shadow.depth));
+                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR, _RAY or _DEVICE", name, shadow.depth));
+    if (shadow.depth == BRUME_DEPTH_DEVICE)
+        check_range(shadow, name);
     if (around && shadow.depth != BRUME_DEPTH_RAY)
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around", name, shadow.depth));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "scene/frame_values.h"
 
@@ -16,6 +17,60 @@ void copy(const std::array<double, 3> &from, float (&to)[3])
     std::transform(from.begin(), from.end(), to, [](double x) { return float(x); });
 }
 
+// Rows of the map, whose camera is there in the world [m] with these axes. Positions are subtracted before anything is
+// rounded: both may be far from the origin.
+void place_shadow(const Pose &pose, const std::array<double, 3> &position, const std::array<std::array<double, 3>, 3> &axes,
+                  brume_plugin_light &out)
+{
+    for (size_t axis = 0; axis < 3; ++axis) {
+        double from_map = 0;
+        for (size_t i = 0; i < 3; ++i)
+            from_map += axes[axis][i] * (pose.position[i] - position[i]);
+        const std::array<double, 3> seen = pose.rotated(axes[axis]);
+        std::transform(seen.begin(), seen.end(), out.shadow_rows[axis], [](double x) { return float(x); });
+        out.shadow_rows[axis][3] = length_in_float(from_map);
+    }
+}
+
+// Of the widest cones a flat map would be too coarse in the middle.
+constexpr double widest_flat_map = 2.1;  // [rad]
+
+// By the picture's depth: around the light, or as wide as its cone.
+void evaluate_screen_shadow(const Light &light, const Pose &pose, const FrameValues &values, const ValueName &name,
+                            brume_plugin_light &out)
+{
+    std::array<std::array<double, 3>, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    out.shadow_kind = float(BRUME_SHADOW_LATLONG);
+    if (light.type == BRUME_LIGHT_SPOT) {
+        const double angle = values.get(light.angle, ranges::spot_angle, name.of(".angle"));
+        if (angle < widest_flat_map) {
+            out.shadow_kind = float(BRUME_SHADOW_PERSPECTIVE);
+            // The cone's rim is within the map.
+            out.shadow_extent = float(1.02 * std::tan(0.5 * std::max(angle, 1e-3)));
+        }
+        const std::array<double, 3> to = values.unit_vector(light.direction, name.of(".direction"));
+        const size_t least =
+            size_t(std::min_element(to.begin(), to.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+                   to.begin());
+        std::array<double, 3> right{};
+        for (size_t i = 0; i < 3; ++i)
+            right[i] = (i == least ? 1.0 : 0.0) - to[least] * to[i];
+        const double length = std::sqrt(right[0] * right[0] + right[1] * right[1] + right[2] * right[2]);
+        for (size_t i = 0; i < 3; ++i) {
+            axes[0][i] = right[i] / length;
+            axes[2][i] = -to[i];
+        }
+        for (size_t i = 0; i < 3; ++i)
+            axes[1][i] = axes[2][(i + 1) % 3] * axes[0][(i + 2) % 3] - axes[2][(i + 2) % 3] * axes[0][(i + 1) % 3];
+    }
+    std::array<double, 3> position = values.get(light.position, ranges::any, name.of(".position"));
+    for (double &x : position)
+        x *= pose.metres_per_unit;
+    place_shadow(pose, position, axes, out);
+    out.shadow_depth = float(BRUME_DEPTH_RAY);
+    out.shadow_screen = 1;
+}
+
 void evaluate_shadow(const LightShadow &shadow, const Pose &pose, const FrameValues &values, const ValueName &name,
                      brume_plugin_light &out)
 {
@@ -29,22 +84,21 @@ void evaluate_shadow(const LightShadow &shadow, const Pose &pose, const FrameVal
     std::array<double, 16> to_world;
     for (size_t i = 0; i < 16; ++i)
         to_world[i] = values.get(shadow.to_world[i], ranges::any, name.of(".shadow_to_world"));
-    // Axis by axis of the map's camera. Positions are subtracted before anything is rounded: both may be far from the
-    // origin.
-    for (size_t axis = 0; axis < 3; ++axis) {
-        std::array<double, 3> along;
-        double from_map = 0;
-        for (size_t i = 0; i < 3; ++i) {
-            along[i] = to_world[4 * i + axis];
-            from_map += along[i] * (pose.position[i] - to_world[4 * i + 3] * pose.metres_per_unit);
-        }
-        const std::array<double, 3> seen = pose.rotated(along);
-        std::transform(seen.begin(), seen.end(), out.shadow_rows[axis], [](double x) { return float(x); });
-        out.shadow_rows[axis][3] = length_in_float(from_map);
+    std::array<std::array<double, 3>, 3> axes;
+    std::array<double, 3> position;
+    for (size_t i = 0; i < 3; ++i) {
+        position[i] = to_world[4 * i + 3] * pose.metres_per_unit;
+        for (size_t axis = 0; axis < 3; ++axis)
+            axes[axis][i] = to_world[4 * i + axis];
     }
+    place_shadow(pose, position, axes, out);
     out.shadow_kind = float(shadow.kind);
     out.shadow_extent = perspective ? float(std::tan(0.5 * extent)) : length_in_float(0.5 * extent * pose.metres_per_unit);
     out.shadow_depth = float(shadow.depth);
+    for (size_t i = 0; i < 2 && shadow.depth == BRUME_DEPTH_DEVICE; ++i) {
+        const double plane = shadow.range[i] * pose.metres_per_unit;
+        out.shadow_range[i] = perspective ? length_in_float(1 / plane) : length_in_float(plane);
+    }
 }
 
 brume_plugin_light evaluate(const Light &light, const Pose &pose, const FrameValues &values, const ValueName &name)
@@ -53,7 +107,10 @@ brume_plugin_light evaluate(const Light &light, const Pose &pose, const FrameVal
     out.type = float(light.type);
     out.surfaces = float(light.surfaces);
     copy(values.get(light.intensity, ranges::not_negative, name.of(".intensity")), out.intensity);
-    evaluate_shadow(light.shadow, pose, values, name, out);
+    if (light.shadow.kind == BRUME_SHADOW_SCREEN)
+        evaluate_screen_shadow(light, pose, values, name, out);
+    else
+        evaluate_shadow(light.shadow, pose, values, name, out);
     if (light.type != BRUME_LIGHT_POINT)
         copy(pose.rotated(values.unit_vector(light.direction, name.of(".direction"))), out.direction);
     if (light.type == BRUME_LIGHT_DIRECTIONAL) {

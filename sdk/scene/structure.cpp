@@ -32,6 +32,9 @@ Structure::Structure(const Scene &scene, const Format &format)
     add("lights", !scene.lights.empty());
     add("lights with a shadow map", std::any_of(scene.lights.begin(), scene.lights.end(),
                                                 [](const Light &light) { return light.shadow.kind != BRUME_SHADOW_NONE; }));
+    add("lights whose shadows are those of the picture's depth",
+        std::any_of(scene.lights.begin(), scene.lights.end(),
+                    [](const Light &light) { return light.shadow.kind == BRUME_SHADOW_SCREEN; }));
     add("environment coefficients", double(scene.environment.coefficients.size()));
     add("medium", scene.medium.has_value());
     if (!scene.medium)

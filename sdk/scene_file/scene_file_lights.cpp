@@ -1,3 +1,8 @@
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "scene/scene_check.h"
@@ -7,37 +12,82 @@
 namespace brume {
 namespace {
 
+struct Projection {
+    const char *name;
+    uint32_t kind;
+    bool parallel;
+    const char *extent;  // the key of how much the map sees; NULL: all
+};
+
+// The first that suits a light goes without saying.
+constexpr Projection projections[] = {{"perspective", BRUME_SHADOW_PERSPECTIVE, false, "vertical_fov"},
+                                      {"latlong", BRUME_SHADOW_LATLONG, false, nullptr},
+                                      {"orthographic", BRUME_SHADOW_ORTHOGRAPHIC, true, "orthographic_width"}};
+
+const Projection &read_projection(const JsonNode &node, bool parallel)
+{
+    const auto given = node.find("projection");
+    const std::string what = parallel ? "\"orthographic\"" : "\"perspective\" or \"latlong\"";
+    const std::string name = given ? given->string(what) : "";
+    for (const Projection &projection : projections)
+        if (projection.parallel == parallel && (!given || name == projection.name))
+            return projection;
+    given->expected(what);
+}
+
+void read_depth(const JsonNode &node, const Projection &projection, LightShadow &shadow)
+{
+    const bool around = projection.kind == BRUME_SHADOW_LATLONG;
+    shadow.depth = around ? BRUME_DEPTH_RAY : BRUME_DEPTH_PLANAR;
+    const auto depth = node.find("depth");
+    const std::string what = around ? "\"ray\"" : "\"planar\", \"ray\" or \"device\"";
+    if (depth) {
+        const std::string &kind = depth->string(what);
+        if (kind != "ray" && (around || (kind != "planar" && kind != "device")))
+            depth->expected(what);
+        shadow.depth = kind == "ray" ? BRUME_DEPTH_RAY : kind == "planar" ? BRUME_DEPTH_PLANAR : BRUME_DEPTH_DEVICE;
+    }
+    if (shadow.depth != BRUME_DEPTH_DEVICE) {
+        for (const char *key : {"near", "far", "reversed"})
+            if (const auto unread = node.find(key))
+                unread->expected("none: depth is not device");
+        return;
+    }
+    const bool parallel = projection.parallel;
+    const double near = read_constant(node.get("near"), parallel ? ranges::any : ranges::positive);
+    double far = std::numeric_limits<double>::infinity();
+    if (const auto given = node.find("far"))
+        far = read_constant(*given, parallel ? ranges::any : ranges::positive);
+    else if (parallel)
+        node.get("far");
+    if (!(near < far))
+        node.get("far").expected(fmt::format("a number above near, {}", near));
+    shadow.range = {near, far};
+    if (const auto reversed = node.find("reversed"); reversed && reversed->boolean())
+        std::swap(shadow.range[0], shadow.range[1]);
+}
+
 LightShadow read_shadow(const JsonNode &node, bool parallel, const std::filesystem::path &folder)
 {
     LightShadow shadow;
-    if (const auto projection = parallel ? std::nullopt : node.find("projection")) {
-        const std::string what = "\"latlong\"";
-        if (projection->string(what) != "latlong")
-            projection->expected(what);
-        node.allow_only({"file", "camera_to_world", "projection"});
-        shadow.kind = BRUME_SHADOW_LATLONG;
-        shadow.depth = BRUME_DEPTH_RAY;
-        shadow.file = (folder / node.get("file").string("the name of an image")).string();
-        shadow.to_world = read_matrix(node.get("camera_to_world"));
+    if (const std::string *name = node.value().as<std::string>()) {
+        if (parallel || *name != "screen")
+            node.expected(parallel ? "an object" : "an object, or \"screen\"");
+        shadow.kind = BRUME_SHADOW_SCREEN;
         return shadow;
     }
-    const char *const extent = parallel ? "orthographic_width" : "vertical_fov";
-    if (parallel)
-        node.allow_only({"file", "camera_to_world", extent, "depth"});
-    else
-        node.allow_only({"file", "camera_to_world", extent, "depth", "projection"});
-    shadow.kind = parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE;
+    const Projection &projection = read_projection(node, parallel);
+    std::vector<std::string> keys{"file", "camera_to_world", "projection", "depth", "near", "far", "reversed"};
+    if (projection.extent)
+        keys.push_back(projection.extent);
+    node.allow_only(keys);
+    shadow.kind = projection.kind;
     shadow.file = (folder / node.get("file").string("the name of an image")).string();
     shadow.to_world = read_matrix(node.get("camera_to_world"));
-    shadow.extent = parallel ? read_number(node.get(extent), ranges::positive)
-                             : in_radians(read_number(node.get(extent), ranges::field_of_view));
-    if (const auto depth = node.find("depth")) {
-        const std::string what = "\"planar\" or \"ray\"";
-        const std::string &kind = depth->string(what);
-        if (kind != "planar" && kind != "ray")
-            depth->expected(what);
-        shadow.depth = kind == "ray" ? BRUME_DEPTH_RAY : BRUME_DEPTH_PLANAR;
-    }
+    if (projection.extent)
+        shadow.extent = parallel ? read_number(node.get(projection.extent), ranges::positive)
+                                 : in_radians(read_number(node.get(projection.extent), ranges::field_of_view));
+    read_depth(node, projection, shadow);
     return shadow;
 }
 

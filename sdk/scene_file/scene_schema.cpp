@@ -137,6 +137,43 @@ Json medium()
     return schema;
 }
 
+// A shadow map of one projection; those of points and spots are perspective, those of directional lights orthographic where
+// none is named.
+Json shadow(const std::string &projection, bool device = false)
+{
+    const bool parallel = projection == "orthographic";
+    Json properties{
+        {"file", described({{"type", "string"}},
+                           "Depth picture, relative to the scene file; one per frame with %04d or #### in its name")},
+        {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
+                                      "Of the camera that took it; row-major; rigid; looks down -z, +y up")},
+        {"projection", {{"const", projection}}}};
+    std::vector<std::string> required{"file", "camera_to_world"};
+    if (projection == "latlong") {
+        required.push_back("projection");
+        properties["depth"] = {{"const", "ray"}};
+        return described(object_of(properties, required),
+                         "Shadow map: the distance to the scene as seen from the light, all around");
+    }
+    required.push_back(parallel ? "orthographic_width" : "vertical_fov");
+    properties[required.back()] = parallel ? described(number(ranges::positive), "Of the map; scene units")
+                                           : described(reference("field_of_view"), "Of the map's height [degrees]");
+    if (!device) {
+        properties["depth"] = described({{"enum", {"planar", "ray"}}}, "planar by default; in scene units");
+        return described(object_of(properties, required), "Shadow map: the scene's depth as seen from the light");
+    }
+    const Json plane = constant(parallel ? ranges::any : ranges::positive);
+    properties["depth"] = described({{"const", "device"}}, "A depth buffer of 0 to 1");
+    properties["near"] = described(plane, "Where it is 0; scene units");
+    properties["far"] =
+        described(plane, std::string("Where it is 1; scene units") + (parallel ? "" : "; infinite by default"));
+    properties["reversed"] = described({{"type", "boolean"}}, "It is 1 at near and 0 at far");
+    required.insert(required.end(), {"depth", "near"});
+    if (parallel)
+        required.push_back("far");
+    return described(object_of(properties, required), "Shadow map: a depth buffer of the scene as seen from the light");
+}
+
 Json lights()
 {
     const Json type_of_point{{"const", "point"}}, type_of_spot{{"const", "spot"}}, type_of_sun{{"const", "directional"}};
@@ -150,30 +187,10 @@ Json lights()
         described(reference("fraction"), "Share of the half angle over which it falls off to nothing; .1 by default");
     const Json distance = described(reference("not_negative"),
                                     "That its light has come through the constant density; scene units; 0 by default");
-    auto shadow = [](const char *extent, const Json &schema) {
-        return described(
-            object_of({{"file",
-                        described({{"type", "string"}}, "Depth picture, relative to the scene file; one per frame with %04d "
-                                                        "or #### in its name")},
-                       {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
-                                                     "Of the camera that took it; row-major; rigid; looks down -z, +y up")},
-                       {extent, schema},
-                       {"depth", described({{"enum", {"planar", "ray"}}}, "planar by default; in scene units")}},
-                      {"file", "camera_to_world", extent}),
-            "Shadow map: the scene's depth as seen from the light");
-    };
-    const Json around = described(
-        object_of({{"file", described({{"type", "string"}},
-                                      "Picture of distances, relative to the scene file; one per frame with %04d or "
-                                      "#### in its name")},
-                   {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
-                                                 "The middle of the picture looks down its -z, +y is up; row-major; rigid")},
-                   {"projection", {{"const", "latlong"}}}},
-                  {"file", "camera_to_world", "projection"}),
-        "Shadow map: the distance to the scene as seen from the light, all around");
-    const Json seen = shadow("vertical_fov", described(reference("field_of_view"), "Of the map's height [degrees]")),
-               perspective{{"oneOf", Json::array({seen, around})}},
-               parallel = shadow("orthographic_width", described(number(ranges::positive), "Of the map; scene units"));
+    const Json of_screen = described({{"const", "screen"}}, "What the picture shows throws shadows, by its depth");
+    const Json perspective{
+        {"oneOf", Json::array({of_screen, shadow("perspective"), shadow("perspective", true), shadow("latlong")})}},
+        parallel{{"oneOf", Json::array({shadow("orthographic"), shadow("orthographic", true)})}};
     const Json surfaces =
                    described({{"type", "boolean"}}, "false: nothing of what surfaces show is this light's; true by default"),
                group = described({{"type", "string"}, {"minLength", 1}},

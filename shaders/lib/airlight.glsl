@@ -22,7 +22,7 @@ struct AirlightSettings {
     float near_radii;      // a light nearer than so many radii of a Gaussian needs other nodes
     float culled;          // share of the airlight that may be missing by what the lists leave out
     int orders;
-    ivec4 shadowed;        // 1 + the light that map shadow_0 to shadow_3 is of; 0: there is none
+    int shadowed;          // 1: some light has a shadow map
 };
 
 struct Airlight {

@@ -149,16 +149,16 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
             Surroundings around = open_surroundings();
             if (settings.orders == orders_all)
                 around = surroundings_of(surroundings, l);
-            ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadow_slot(settings.shadowed, l), l, sight.direction, end);
+            ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, settings.shadowed, l, sight.direction, end);
             vec3 before = vec3(R(0.0));
             vec3 last = vec3(R(0.0));
             for (int j = 0; j < steps; ++j) {
                 float t = moment[j];
                 vec3 f = vec3(R(0.0));
                 float strength = lit_strength(medium, light, aspect, sight.direction, t);
-                if (strength > R(0.0) && ray.slot >= 0)
-                    strength *= lit_share(SHADOW_MAP_PASSED, ray, edge[j], edge[j + 1]);
-                if (strength > R(0.0) || (settings.orders == orders_all && (light.type == light_spot || ray.slot >= 0))) {
+                if (strength > R(0.0) && ray.kind != 0)
+                    strength *= lit_share(shadow_maps, ray, edge[j], edge[j + 1]);
+                if (strength > R(0.0) || (settings.orders == orders_all && (light.type == light_spot || ray.kind != 0))) {
                     vec3 point = t * sight.direction;
                     float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
                     f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));

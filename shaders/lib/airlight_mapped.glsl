@@ -1,7 +1,7 @@
 // What airlight_grid.glsl asks of lights with shadow maps and of light that has been scattered before. Needs shadow_map.glsl,
 // airlight_orders.glsl. Pixels side by side have neither (lanes_types.inc).
 
-#define MAPPED_IMAGES ivec4 shadowed, int orders, sampler2D surroundings, SHADOW_MAP_IMAGES
+#define MAPPED_IMAGES int shadowed, int orders, sampler2D surroundings, SHADOW_MAP_IMAGES
 #define MAPPED_PASSED(settings) (settings).shadowed, (settings).orders, surroundings, SHADOW_MAP_PASSED
 
 // Of each of the lights: its ray in its shadow map, and what is around it.
@@ -9,11 +9,11 @@
     ShadowRay shadow[grid_lights_at_once]; \
     Surroundings around[grid_lights_at_once];
 #define MAPPED_BEGIN(i) \
-    shadow[i] = shadow_ray(camera, SHADOW_MAP_PASSED, shadow_slot(shadowed, first + i), first + i, direction, distance); \
+    shadow[i] = shadow_ray(camera, SHADOW_MAP_PASSED, shadowed, first + i, direction, distance); \
     around[i] = open_surroundings(); \
     if (orders == orders_all) \
         around[i] = surroundings_of(surroundings, first + i);
-#define MAPPED_SHARE(i, low, high) (shadow[i].slot >= 0 ? lit_share(SHADOW_MAP_PASSED, shadow[i], low, high) : R(1.0))
+#define MAPPED_SHARE(i, low, high) (shadow[i].kind != 0 ? lit_share(shadow_maps, shadow[i], low, high) : R(1.0))
 #define MAPPED_ORDERS(i, t, depth) \
     if (orders == orders_all) \
         arriving += rescattered_strength(medium, camera, light[i], aspect[i], around[i], direction, t, depth);

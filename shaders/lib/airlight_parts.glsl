@@ -317,12 +317,12 @@ PURE Airlight airlight_by_parts(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     for (int l = first_light; l < last_light; ++l) {
         Light light = light_at(lights, l);
         Aspect aspect = aspect_of(light, sight.direction);
-        ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadow_slot(settings.shadowed, l), l, sight.direction, reach);
-        LitWalk walk = next_lit(SHADOW_MAP_PASSED, ray, lit_walk(R(0.0)), end);
+        ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, settings.shadowed, l, sight.direction, reach);
+        LitWalk walk = next_lit(shadow_maps, ray, lit_walk(R(0.0)), end);
         while (walk.part.x < walk.part.y) {
             total = light_by_parts(medium, camera, settings, SHADOW_PASSED, tile_gaussians, sight, l, light, aspect, has_terms, terms,
                                    walk.part, total);
-            walk = next_lit(SHADOW_MAP_PASSED, ray, walk, end);
+            walk = next_lit(shadow_maps, ray, walk, end);
         }
     }
     return total;

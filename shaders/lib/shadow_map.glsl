@@ -1,11 +1,13 @@
 // Shadows of solid things: depth pictures from lights ("shadow maps"), and which parts of a ray they let a light shine on.
-// Needs data.glsl, ray.glsl, phase.glsl. Of four lights at most; settings say which has which map.
+// Needs data.glsl, ray.glsl, phase.glsl. Products "light_shadows" of brume_plugin.h:
 //
-//   light_shadows  4 texels per light, as brume_plugin_light from shadow_rows on
-//   shadow_0 ...   the maps: distance from the map's camera in scene units, NaN, infinite or <= 0 where nothing is
+//   light_shadows  5 texels per light: three rows that bring a point of camera space [m], 1 appended, into the space of the map's
+//                  camera; shadow_kind (0: no map), shadow_extent, 1 where distances are along rays, 0; x, y, width and height of
+//                  the map's rectangle in shadow_maps
+//   shadow_maps    all maps side by side: distance from the map's camera [m], far_away where nothing is
 
-#define SHADOW_MAP_IMAGES sampler2D light_shadows, sampler2D shadow_0, sampler2D shadow_1, sampler2D shadow_2, sampler2D shadow_3
-#define SHADOW_MAP_PASSED light_shadows, shadow_0, shadow_1, shadow_2, shadow_3
+#define SHADOW_MAP_IMAGES sampler2D light_shadows, sampler2D shadow_maps
+#define SHADOW_MAP_PASSED light_shadows, shadow_maps
 
 const int shadow_perspective = 1;
 const int shadow_latlong = 3;
@@ -22,48 +24,42 @@ const int shadow_halvings = 40;   // at most, of a step in which a shadow begins
 
 // A ray of the camera on a light's map.
 struct ShadowRay {
-    int slot;          // of the map; < 0: the light has none
-    int kind;
+    int kind;          // 0: nothing of the ray is in a map
     int along_ray;     // 1: the map has distances along its rays
+    ivec2 corner;      // of its rectangle
     ivec2 size;
     vec3 from;         // where the ray begins, in the space of the map's camera [m]
     vec3 direction;
     vec2 scale;        // texels per tangent, orthographic: per metre, lat-long: per radian; y as the image's rows run
     float texel;       // a texel's width at distance 1, orthographic: anywhere
-    float unit;        // metres per unit of depth
     vec2 seen;         // the part of the ray that the map sees: beyond, all is lit
     int steps;
     float foot;        // where the ray is nearest to a lat-long map's place, and how far it is from there
     float height;
 };
 
-PURE float shadow_texel(SHADOW_MAP_IMAGES, int slot, ivec2 texel)
-{
-    if (slot == 0)
-        return texelFetch(shadow_0, texel, 0).x;
-    if (slot == 1)
-        return texelFetch(shadow_1, texel, 0).x;
-    if (slot == 2)
-        return texelFetch(shadow_2, texel, 0).x;
-    return texelFetch(shadow_3, texel, 0).x;
-}
+// What a map brings: planar and along the ray in units, device as 1/m at 0 and at 1 or, of an orthographic map, normalized as [m].
+struct ShadowDepth {
+    int kind;     // as Camera.depth_kind
+    float unit;   // [m]
+    vec2 range;
+};
 
-PURE ivec2 shadow_size(SHADOW_MAP_IMAGES, int slot)
+// Distance [m], or far_away where nothing is.
+PURE float shadow_distance(IN(ShadowDepth) depth, float raw)
 {
-    if (slot == 0)
-        return textureSize(shadow_0, 0);
-    if (slot == 1)
-        return textureSize(shadow_1, 0);
-    if (slot == 2)
-        return textureSize(shadow_2, 0);
-    return textureSize(shadow_3, 0);
-}
-
-// Which map a light has; shadowed: of the settings.
-PURE int shadow_slot(ivec4 shadowed, int light)
-{
-    int of = light + 1;
-    return shadowed.x == of ? 0 : shadowed.y == of ? 1 : shadowed.z == of ? 2 : shadowed.w == of ? 3 : -1;
+    if (!is_finite(raw))
+        return far_away;
+    float distance = raw * depth.unit;
+    if (depth.kind == depth_device || depth.kind == depth_normalized) {
+        bool rises = depth.range.x < depth.range.y;
+        float value = mix(depth.range.x, depth.range.y, clamp(raw, R(0.0), R(1.0)));
+        bool inverse = depth.kind == depth_device;
+        if (raw == (rises == inverse ? R(0.0) : R(1.0)))
+            return far_away;
+        distance = !inverse ? value : value > R(1e-30) ? R(1.0) / value : far_away;
+    }
+    return distance > R(0.0) ? min(distance, far_away) : far_away;
 }
 
 // What of the range has at + t by >= 0.
@@ -126,31 +122,35 @@ PURE ShadowRay shadow_section(ShadowRay ray, float from, float to)
     return ray;
 }
 
-PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int slot, int light, vec3 direction, float distance)
+// shadowed: 0 where no light has a map.
+PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int shadowed, int light, vec3 direction, float distance)
 {
     ShadowRay ray;
-    ray.slot = slot;
     ray.kind = 0;
     ray.along_ray = 0;
+    ray.corner = ivec2(0, 0);
     ray.size = ivec2(1, 1);
     ray.from = vec3(R(0.0));
     ray.direction = direction;
     ray.scale = vec2(R(1.0));
     ray.texel = R(0.0);
-    ray.unit = camera.metres_per_unit;
     ray.seen = vec2(R(0.0), distance);
     ray.steps = 1;
     ray.foot = R(0.0);
     ray.height = R(0.0);
-    if (slot < 0)
+    if (shadowed == 0)
         return ray;
-    vec4 x = data_texel(light_shadows, 4 * light);
-    vec4 y = data_texel(light_shadows, 4 * light + 1);
-    vec4 z = data_texel(light_shadows, 4 * light + 2);
-    vec4 extent = data_texel(light_shadows, 4 * light + 3);
+    vec4 extent = data_texel(light_shadows, 5 * light + 3);
     ray.kind = int(extent.x);
+    if (ray.kind == 0)
+        return ray;
+    vec4 x = data_texel(light_shadows, 5 * light);
+    vec4 y = data_texel(light_shadows, 5 * light + 1);
+    vec4 z = data_texel(light_shadows, 5 * light + 2);
+    vec4 rectangle = data_texel(light_shadows, 5 * light + 4);
     ray.along_ray = int(extent.z);
-    ray.size = shadow_size(SHADOW_MAP_PASSED, slot);
+    ray.corner = ivec2(int(rectangle.x), int(rectangle.y));
+    ray.size = ivec2(int(rectangle.z), int(rectangle.w));
     ray.from = vec3(x.w, y.w, z.w);
     ray.direction = vec3(dot(vec3(x.x, x.y, x.z), direction), dot(vec3(y.x, y.y, y.z), direction), dot(vec3(z.x, z.y, z.z), direction));
     if (ray.kind == shadow_latlong) {
@@ -182,21 +182,20 @@ PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int slot, int li
     ray.seen = seen;
     ray = shadow_section(ray, R(0.0), distance);
     if (!(seen.x < seen.y))
-        ray.slot = -1;
+        ray.kind = 0;
     return ray;
 }
 
 // Depth that the map has there [m]; far_away where nothing is.
-PURE float shadow_depth_at(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, int x, int y)
+PURE float shadow_depth_at(sampler2D shadow_maps, IN(ShadowRay) ray, int x, int y)
 {
     if (ray.kind == shadow_latlong)
         x = x < 0 ? x + ray.size.x : x >= ray.size.x ? x - ray.size.x : x;
-    float depth = shadow_texel(SHADOW_MAP_PASSED, ray.slot, ivec2(clamp(x, 0, ray.size.x - 1), clamp(y, 0, ray.size.y - 1)));
-    return is_finite(depth) && depth > R(0.0) ? min(depth * ray.unit, far_away) : far_away;
+    return texelFetch(shadow_maps, ray.corner + ivec2(clamp(x, 0, ray.size.x - 1), clamp(y, 0, ray.size.y - 1)), 0).x;
 }
 
 // Whether the light reaches the ray at t.
-PURE bool is_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, float t)
+PURE bool is_lit(sampler2D shadow_maps, IN(ShadowRay) ray, float t)
 {
     if (t < ray.seen.x || t > ray.seen.y)
         return true;
@@ -204,17 +203,17 @@ PURE bool is_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, float t)
     vec2 position = shadow_position(ray, place);
     bool radial = ray.kind == shadow_latlong || (ray.kind == shadow_perspective && ray.along_ray == 1);
     float there = radial ? length(place) : -place.z;
-    float depth = shadow_depth_at(SHADOW_MAP_PASSED, ray, int(position.x), int(position.y));
+    float depth = shadow_depth_at(shadow_maps, ray, int(position.x), int(position.y));
     float width = ray.kind == shadow_perspective || ray.kind == shadow_latlong ? ray.texel * depth : ray.texel;
     // What the neighbours say could not change it.
     if (abs(there - depth) > (shadow_slope + shadow_bias) * width)
         return there <= depth;
     int x = int(floor(position.x - R(0.5)));
     int y = int(floor(position.y - R(0.5)));
-    float a = shadow_depth_at(SHADOW_MAP_PASSED, ray, x, y);
-    float b = shadow_depth_at(SHADOW_MAP_PASSED, ray, x + 1, y);
-    float c = shadow_depth_at(SHADOW_MAP_PASSED, ray, x, y + 1);
-    float d = shadow_depth_at(SHADOW_MAP_PASSED, ray, x + 1, y + 1);
+    float a = shadow_depth_at(shadow_maps, ray, x, y);
+    float b = shadow_depth_at(shadow_maps, ray, x + 1, y);
+    float c = shadow_depth_at(shadow_maps, ray, x, y + 1);
+    float d = shadow_depth_at(shadow_maps, ray, x + 1, y + 1);
     if (max(max(a, b), max(c, d)) - min(min(a, b), min(c, d)) < shadow_slope * width) {
         float u = position.x - R(0.5) - float(x);
         depth = mix(mix(a, b, u), mix(c, d, u), position.y - R(0.5) - float(y));
@@ -235,10 +234,10 @@ PURE LitWalk lit_walk(float from)
     return LitWalk(-1, from, true, vec2(from));
 }
 
-PURE LitWalk next_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, LitWalk walk, float end)
+PURE LitWalk next_lit(sampler2D shadow_maps, IN(ShadowRay) ray, LitWalk walk, float end)
 {
     float begin = walk.at;
-    if (ray.slot < 0) {
+    if (ray.kind == 0) {
         walk.part = vec2(begin, end);
         walk.at = end;
         return walk;
@@ -248,7 +247,7 @@ PURE LitWalk next_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, LitWalk walk, float 
         walk.step += 1;
         bool outside = walk.step > ray.steps;
         float high = outside ? ray.seen.y : shadow_step(ray, walk.step);
-        bool now = outside || is_lit(SHADOW_MAP_PASSED, ray, high);
+        bool now = outside || is_lit(shadow_maps, ray, high);
         walk.at = high;
         if (now == walk.lit)
             continue;
@@ -256,7 +255,7 @@ PURE LitWalk next_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, LitWalk walk, float 
             low = high;
         for (int i = 0; i < shadow_halvings && high - low > R(1e-5) * high; ++i) {
             float middle = R(0.5) * (low + high);
-            if (is_lit(SHADOW_MAP_PASSED, ray, middle) == walk.lit)
+            if (is_lit(shadow_maps, ray, middle) == walk.lit)
                 low = middle;
             else
                 high = middle;
@@ -275,16 +274,16 @@ PURE LitWalk next_lit(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, LitWalk walk, float 
 }
 
 // How much of [from, to] is lit: a share of 1.
-PURE float lit_share(SHADOW_MAP_IMAGES, IN(ShadowRay) ray, float from, float to)
+PURE float lit_share(sampler2D shadow_maps, IN(ShadowRay) ray, float from, float to)
 {
     ShadowRay section = shadow_section(ray, from, to);
     if (!(section.seen.x < section.seen.y))
         return R(1.0);
     float lit = R(0.0);
-    LitWalk walk = next_lit(SHADOW_MAP_PASSED, section, lit_walk(from), to);
+    LitWalk walk = next_lit(shadow_maps, section, lit_walk(from), to);
     while (walk.part.x < walk.part.y) {
         lit += walk.part.y - walk.part.x;
-        walk = next_lit(SHADOW_MAP_PASSED, section, walk, to);
+        walk = next_lit(shadow_maps, section, walk, to);
     }
     return min(lit / max(to - from, R(1e-20)), R(1.0));
 }

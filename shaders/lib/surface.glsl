@@ -64,16 +64,9 @@ struct SurfaceSettings {
     int environment_order;
     int world_normals;
     int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
-    ivec4 shadowed;  // as AirlightSettings has it
-    float ground;    // albedo of what lies below, for suns and sky
+    int shadowed;  // as AirlightSettings has it
+    float ground;  // albedo of what lies below, for suns and sky
 };
-
-// What the maps say of one light; lit: of lit_by_maps().
-PURE float lit_by_map(ivec4 shadowed, vec4 lit, int light)
-{
-    int of = light + 1;
-    return shadowed.x == of ? lit.x : shadowed.y == of ? lit.y : shadowed.z == of ? lit.z : shadowed.w == of ? lit.w : R(1.0);
-}
 
 // What a surface receives of a lamp over what it would in clear air, by the method that is asked for.
 PURE float share_by_method(IN(SurfaceSettings) settings, sampler2D table, float scattering, float absorption, float asymmetry,
@@ -100,6 +93,16 @@ PURE Surface surface_at(IN(Ray) ray, vec3 normal)
     vec3 unit = vec3(choose(known, normal.x / size, R(0.0)), choose(known, normal.y / size, R(0.0)),
                      choose(known, normal.z / size, R(0.0)));
     return Surface(seen, choose(seen, ray.distance, R(0.0)) * ray.direction, unit);
+}
+
+// 1 where the light's shadow map lets its light onto the surface, or it has none.
+PURE float lit_by_map(IN(Camera) camera, int shadowed, SHADOW_MAP_IMAGES, IN(Surface) surface, int light)
+{
+    float distance = length(surface.point);
+    if (shadowed == 0 || distance <= R(0.0))
+        return R(1.0);
+    ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadowed, light, surface.point / distance, R(1.01) * distance);
+    return ray.kind == 0 || is_lit(shadow_maps, ray, distance) ? R(1.0) : R(0.0);
 }
 
 // d, of the world, in camera axes.
@@ -432,14 +435,14 @@ PURE vec3 environment_share(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSett
 
 // What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's.
 // ungrouped: of each light, 1 where it has a part in that.
-PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
-                        IN(Material) material, vec4 lit, vec3 rest)
+PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, SHADOW_MAP_IMAGES,
+                        IN(Surface) surface, IN(Material) material, vec3 rest)
 {
     vec3 all = vec3(R(0.0));
     for (int l = 0; l < settings.light_count; ++l)
         if (data_texel(ungrouped, l).x != R(0.0))
-            all = min(all + lit_by_map(settings.shadowed, lit, l) * clear_irradiance(surface, light_at(lights, l)),
-                      vec3(radiance_limit));
+            all = min(all + lit_by_map(camera, settings.shadowed, SHADOW_MAP_PASSED, surface, l) *
+                                clear_irradiance(surface, light_at(lights, l)), vec3(radiance_limit));
     vec3 sky = vec3(R(0.0));
     if (settings.environment_order > 0)
         sky = environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
@@ -456,7 +459,8 @@ PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings
         if (data_texel(ungrouped, l).x == R(0.0))
             continue;
         Light light = light_at(lights, l);
-        vec3 own = rest * (lit_by_map(settings.shadowed, lit, l) * clear_irradiance(surface, light) / max(all, vec3(R(1e-30))));
+        vec3 own = rest * (lit_by_map(camera, settings.shadowed, SHADOW_MAP_PASSED, surface, l) * clear_irradiance(surface, light) /
+                           max(all, vec3(R(1e-30))));
         if (own != vec3(R(0.0)) || material.known)
             change += lit_by_lamp(medium, settings, surface, light, material, gaussians, table, own) - own;
     }
@@ -481,12 +485,13 @@ PURE Divided divided_by_group(IN(Medium) medium, IN(SurfaceSettings) settings, I
 }
 
 // The pixel in the end; source: as it was.
-PURE vec3 relit(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, IN(Surface) surface,
-                IN(Material) material, vec4 lit, vec3 source, IN(Divided) pixel, float limit)
+PURE vec3 relit(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, SHADOW_MAP_IMAGES, IN(Surface) surface,
+                IN(Material) material, vec3 source, IN(Divided) pixel, float limit)
 {
     if (!surface.seen)
         return source;
-    vec3 sum = rest_received(medium, camera, settings, SURFACE_PASSED, surface, material, lit, finite_or_zero(pixel.rest)) + pixel.lit;
+    vec3 sum = rest_received(medium, camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material,
+                             finite_or_zero(pixel.rest)) + pixel.lit;
     return vec3(composed(source.x, R(0.0), sum.x, limit), composed(source.y, R(0.0), sum.y, limit),
                 composed(source.z, R(0.0), sum.z, limit));
 }

@@ -51,10 +51,7 @@ uniform sampler2D surroundings;
 uniform sampler2D environment;
 uniform sampler2D environment_table;
 uniform sampler2D light_shadows;
-uniform sampler2D shadow_0;
-uniform sampler2D shadow_1;
-uniform sampler2D shadow_2;
-uniform sampler2D shadow_3;
+uniform sampler2D shadow_maps;
 writeonly uniform image2D radiance;
 writeonly uniform image2D error;
 writeonly uniform image2D distances;
@@ -67,7 +64,7 @@ void main()
     ivec2 pixel = representative(p, reduction, size);
     AirlightSettings settings = airlight;
     if (SHADOWED == 0)
-        settings.shadowed = ivec4(0);
+        settings.shadowed = 0;
     Airlight a = airlight_at(TIER, brume_medium, brume_camera, settings, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
     imageStore(radiance, p, vec4(a.radiance, 1.0));
     imageStore(error, p, vec4(a.error, 1.0));

@@ -12,6 +12,7 @@
 #include "lit.glsl"
 #include "octahedral.glsl"
 #include "shadow.glsl"
+#include "shadow_map.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
 #include "environment.glsl"
@@ -35,7 +36,8 @@ uniform sampler2D table;
 uniform sampler2D albedo;
 uniform sampler2D specular;
 uniform sampler2D roughness;
-uniform sampler2D shadows;
+uniform sampler2D light_shadows;
+uniform sampler2D shadow_maps;
 writeonly uniform image2D result;
 writeonly uniform image2D surface_out;
 
@@ -47,7 +49,7 @@ void main()
     vec4 source = texelFetch(color, p, 0);
     Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided divided = first != 0 ? Divided(source.rgb, vec3(0.0)) : Divided(texelFetch(rest, p, 0).rgb, texelFetch(lit, p, 0).rgb);
-    vec3 shown = relit(brume_medium, brume_camera, settings, SURFACE_PASSED, surface, material_at(settings.material, albedo, specular, roughness, p), texelFetch(shadows, p, 0), source.rgb, divided, brume_output_limit);
+    vec3 shown = relit(brume_medium, brume_camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material_at(settings.material, albedo, specular, roughness, p), source.rgb, divided, brume_output_limit);
     imageStore(result, p, vec4(shown, source.a));
     imageStore(surface_out, p, vec4(shown, 1.0));
 }

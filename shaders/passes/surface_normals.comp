@@ -12,6 +12,7 @@
 #include "lit.glsl"
 #include "octahedral.glsl"
 #include "shadow.glsl"
+#include "shadow_map.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
 #include "environment.glsl"

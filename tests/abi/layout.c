@@ -80,7 +80,7 @@ FIELD(brume_gaussian, scale, 32, 8);
 FIELD(brume_gaussian, amplitude, 40, 8);
 FIELD(brume_gaussian, color, 48, 24);
 
-SIZE(brume_light, 264);
+SIZE(brume_light, 280);
 FIELD(brume_light, struct_size, 0, 4);
 FIELD(brume_light, type, 4, 4);
 FIELD(brume_light, position, 8, 24);
@@ -96,6 +96,7 @@ FIELD(brume_light, shadow_extent, 120, 8);
 FIELD(brume_light, shadow_to_world, 128, 128);
 FIELD(brume_light, surfaces, 256, 4);
 FIELD(brume_light, reserved, 260, 4);
+FIELD(brume_light, shadow_range, 264, 16);
 
 SIZE(brume_medium, 168);
 FIELD(brume_medium, struct_size, 0, 4);

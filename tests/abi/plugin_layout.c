@@ -25,7 +25,7 @@ SIZE(brume_plugin_gaussian, 32);
 FIELD(brume_plugin_gaussian, scale, 12);
 FIELD(brume_plugin_gaussian, amplitude, 16);
 FIELD(brume_plugin_gaussian, color, 20);
-SIZE(brume_plugin_light, 128);
+SIZE(brume_plugin_light, 144);
 FIELD(brume_plugin_light, radius, 12);
 FIELD(brume_plugin_light, direction, 16);
 FIELD(brume_plugin_light, cos_outer, 28);

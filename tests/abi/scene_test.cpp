@@ -140,6 +140,26 @@ TEST_F(SceneCalls, LightsRefuseNonsense)
         {BRUME_LIGHT_POINT, [](auto &l) { l.shadow_kind = BRUME_SHADOW_LATLONG; },
          "lights[1].shadow_depth: 0; expected BRUME_DEPTH_RAY of a map all around"},
         {BRUME_LIGHT_DIRECTIONAL, [](auto &l) { l.shadow_kind = BRUME_SHADOW_LATLONG; }, "lights[1].shadow_kind: 3"},
+        {BRUME_LIGHT_POINT,
+         [](auto &l) {
+             l.shadow_kind = BRUME_SHADOW_PERSPECTIVE;
+             l.shadow_depth = BRUME_DEPTH_NORMALIZED;
+         },
+         "lights[1].shadow_depth: 3; expected BRUME_DEPTH_PLANAR, _RAY or _DEVICE"},
+        {BRUME_LIGHT_POINT,
+         [](auto &l) {
+             l.shadow_kind = BRUME_SHADOW_PERSPECTIVE;
+             l.shadow_depth = BRUME_DEPTH_DEVICE;
+             l.shadow_range[0] = 2, l.shadow_range[1] = 2;
+         },
+         "lights[1].shadow_range: (2, 2); expected two distances above 0 that differ"},
+        {BRUME_LIGHT_DIRECTIONAL,
+         [](auto &l) {
+             l.shadow_kind = BRUME_SHADOW_ORTHOGRAPHIC;
+             l.shadow_depth = BRUME_DEPTH_DEVICE;
+             l.shadow_range[1] = INFINITY;
+         },
+         "lights[1].shadow_range: (0, inf); expected two finite distances that differ"},
         {BRUME_LIGHT_POINT, [](auto &l) { l.reserved = 7; }, "lights[1].reserved: 7; expected 0"},
         {BRUME_LIGHT_POINT, [](auto &l) { l.direction[2] = l.angle = l.distance = NAN; }, nullptr},
         {BRUME_LIGHT_SPOT, [](auto &l) { l.direction[2] = 0; }, "lights[1].direction: (0, 0, 0)"},

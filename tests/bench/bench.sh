@@ -14,6 +14,7 @@ build/release/bin/maps_bench 353 1 353 3 3008 1 3008 3 3008 8 | tee "$out/maps.m
 build/release/bin/map_bases | tee "$out/map_bases.md"
 tests/bench/sequence_bench.sh build/release/bin/brume samples/frames "$out"
 build/release/bin/surface_calibration ${1:+"$1"} | tee "$out/surface_calibration.txt"
+build/release/bin/surface_bench | tee "$out/surface_bench.md"
 build/release/bin/slab_calibration ${1:+"$1"} | tee "$out/slab_calibration.txt"
 build/release/bin/surface_accuracy ${1:+"$1"} | tee "$out/surface_accuracy.txt"
 build/release/bin/quality_bench ${1:+"$1"} "$out/quality.json" "$out/quality.md"

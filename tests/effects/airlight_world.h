@@ -63,13 +63,21 @@ public:
     // The ray's list holds these only; shadows are still of all.
     void see_only(const std::vector<int> &gaussians) { seen_.assign(gaussians.begin(), gaussians.end()); }
 
-    // A map of this light, and where it looks: as brume_plugin_light from shadow_rows on.
+    // A map of this light (one at most), and where it looks: as brume_plugin_light from shadow_rows on.
     void add_shadow(int light, const std::array<float, 16> &projection, narrow::Texture map)
     {
-        light_shadows_.resize(16 * case_.lights.size());
-        std::copy(projection.begin(), projection.end(), light_shadows_.begin() + 16 * light);
-        settings.shadowed[maps_] = light + 1;
-        map_[maps_++] = map;
+        light_shadows_.resize(20 * case_.lights.size());
+        float *texels = &light_shadows_[size_t(20 * light)];
+        std::copy(projection.begin(), projection.end(), texels);
+        texels[14] = projection[14] == float(BRUME_DEPTH_RAY);
+        texels[18] = float(map.width);
+        texels[19] = float(map.height);
+        for (int y = 0; y < map.height; ++y)
+            for (int x = 0; x < map.width; ++x)
+                shadow_map_.push_back(
+                    narrow::shadow_distance({BRUME_DEPTH_PLANAR, 1, {0, 0}}, *narrow::texel_at(map, x, y)));
+        shadow_width_ = map.width;
+        settings.shadowed = 1;
     }
 
     // A plane at this height below the camera, or (`high`) above it, across this axis.
@@ -85,8 +93,9 @@ public:
 
     narrow::Airlight airlight(int tier)
     {
-        const narrow::Texture light_shadows = image(light_shadows_, 4), &shadow_0 = map_[0], &shadow_1 = map_[1],
-                              &shadow_2 = map_[2], &shadow_3 = map_[3];
+        const narrow::Texture light_shadows = image(light_shadows_, 4),
+                              shadow_maps{shadow_map_.data(), shadow_width_, shadow_width_,
+                                          int(shadow_map_.size()) / std::max(shadow_width_, 1), 1};
         const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4),
                               cell_gaussians = image(indices_, 1), shadow_origins = image(origins_, 4),
                               lights = image(lights_, 4), tile_gaussians = image(seen_, 1);
@@ -142,9 +151,9 @@ private:
     const Case &case_;
     narrow::Medium medium_;
     narrow::Camera camera_{};
-    narrow::Texture map_[4];
-    int maps_ = 0;
-    std::vector<float> light_shadows_, gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_, surroundings_;
+    int shadow_width_ = 0;
+    std::vector<float> shadow_map_, light_shadows_, gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_,
+        surroundings_;
 };
 
 // Errors of one tier over many rays, relative to the exact radiance (mean of the colours). Lights of intensity 1 that send

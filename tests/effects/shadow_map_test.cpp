@@ -35,21 +35,29 @@ template <class Real> struct Maths;
 #define MATHS(Real, space)                                                                                                  \
     template <> struct Maths<Real> {                                                                                        \
         using vec3 = space::vec3;                                                                                           \
+        static constexpr space::ShadowDepth units{BRUME_DEPTH_PLANAR, 1, {0, 0}};                                           \
         static std::vector<std::array<double, 2>> parts(const std::array<float, 16> &projection,                            \
                                                         const std::vector<Real> &texels, int width, vec3 direction,         \
                                                         Real end, Real row_sign = -1)                                       \
         {                                                                                                                   \
+            /* Amid the maps of others, which would throw shadows everywhere. */                                            \
+            const int height = int(texels.size()) / width, all = width + 5;                                                 \
+            std::vector<Real> atlas(size_t(all *(height + 4)), Real(0.01));                                                 \
+            for (int y = 0; y < height; ++y)                                                                                \
+                for (int x = 0; x < width; ++x)                                                                             \
+                    atlas[size_t((y + 2) * all + x + 3)] = space::shadow_distance(units, texels[size_t(y * width + x)]);    \
             std::vector<Real> rows(4096);                                                                                   \
             std::copy(projection.begin(), projection.end(), rows.begin());                                                  \
+            rows[14] = projection[14] == float(BRUME_DEPTH_RAY);                                                            \
+            rows[16] = 3, rows[17] = 2, rows[18] = Real(width), rows[19] = Real(height);                                    \
             const space::Texture light_shadows{rows.data(), 4096, 1024, 1, 4},                                              \
-                shadow_0{texels.data(), width, width, int(texels.size()) / width, 1}, shadow_1, shadow_2, shadow_3;         \
+                shadow_maps{atlas.data(), all, all, height + 4, 1};                                                         \
             space::Camera camera{};                                                                                         \
-            camera.metres_per_unit = 1;                                                                                     \
             camera.tangent_scale.y = row_sign;                                                                              \
-            const space::ShadowRay ray = space::shadow_ray(camera, SHADOW_MAP_PASSED, 0, 0, direction, end);                \
+            const space::ShadowRay ray = space::shadow_ray(camera, SHADOW_MAP_PASSED, 1, 0, direction, end);                \
             std::vector<std::array<double, 2>> parts;                                                                       \
-            for (space::LitWalk walk = space::next_lit(SHADOW_MAP_PASSED, ray, space::lit_walk(0), end);                    \
-                 walk.part.x < walk.part.y; walk = space::next_lit(SHADOW_MAP_PASSED, ray, walk, end))                      \
+            for (space::LitWalk walk = space::next_lit(shadow_maps, ray, space::lit_walk(0), end);                          \
+                 walk.part.x < walk.part.y; walk = space::next_lit(shadow_maps, ray, walk, end))                            \
                 parts.push_back({walk.part.x, walk.part.y});                                                                \
             return parts;                                                                                                   \
         }                                                                                                                   \
@@ -209,6 +217,33 @@ TYPED_TEST(ShadowMap, MapsThatShowNothingShadowNothing)
             EXPECT_EQ(parts[0][0], 0);
             EXPECT_EQ(parts[0][1], 20);
         }
+}
+
+// As a buffer of near and far planes, reversed or not, has it.
+TYPED_TEST(ShadowMap, DepthBuffersAreDistances)
+{
+    using Real = TypeParam;
+    using Depth = std::conditional_t<std::is_same_v<Real, float>, f32::ShadowDepth, f64::ShadowDepth>;
+    const Real near = Real(0.1), far = 50, none = Real(1e30);
+    auto stored = [&](Real z) { return (1 / near - 1 / z) / (1 / near - 1 / far); };
+    for (const Real z : {Real(0.1), Real(0.5), Real(7), Real(49)}) {
+        const Depth usual{BRUME_DEPTH_DEVICE, 1, {1 / near, 1 / far}}, reversed{BRUME_DEPTH_DEVICE, 1, {1 / far, 1 / near}},
+            endless{BRUME_DEPTH_DEVICE, 1, {0, 1 / near}}, parallel{BRUME_DEPTH_NORMALIZED, 1, {near, far}},
+            turned{BRUME_DEPTH_NORMALIZED, 1, {far, near}};
+        const Real linear = (z - near) / (far - near);
+        EXPECT_NEAR(shadow_distance(usual, stored(z)) / z, 1, 1e-4);
+        EXPECT_NEAR(shadow_distance(reversed, 1 - stored(z)) / z, 1, 1e-3);
+        EXPECT_NEAR(shadow_distance(endless, near / z) / z, 1, 1e-5);
+        EXPECT_NEAR(shadow_distance(parallel, linear) / z, 1, 1e-4);
+        EXPECT_NEAR(shadow_distance(turned, 1 - linear) / z, 1, 1e-4);
+        // Cleared texels.
+        EXPECT_EQ(shadow_distance(usual, Real(1)), none);
+        EXPECT_EQ(shadow_distance(reversed, Real(0)), none);
+        EXPECT_EQ(shadow_distance(endless, Real(0)), none);
+        EXPECT_EQ(shadow_distance(parallel, Real(1)), none);
+        EXPECT_EQ(shadow_distance(turned, Real(0)), none);
+        EXPECT_EQ(shadow_distance(usual, Real(nothing)), none);
+    }
 }
 
 TYPED_TEST(ShadowMap, OneTexelIsAMap)

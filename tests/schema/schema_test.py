@@ -23,6 +23,7 @@ UNSAID = (
     "expected a vector that is not zero",  # all of whose keys are zero
     "expected no group, since surfaces is false",
     "expected a group of its own",
+    "expected a number above near",
     "cannot be read",
     "expected .csv or .ply",
 )

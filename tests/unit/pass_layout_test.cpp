@@ -68,6 +68,19 @@ TEST(PassLayout, MistakesAreNamed)
     refused([](auto &d) { d.desc.name = nullptr; }, "name is NULL");
     refused([](auto &d) { d.desc.grain = 0; }, "pass \"pass\": grain 0; expected at least 1");
     refused([](auto &d) { d.desc.slot_count = 33; }, "33 slots; expected at most 32");
+    auto with = [](Described &d, uint32_t access, uint32_t count) {
+        static std::vector<std::string> kept;
+        kept.clear();
+        for (uint32_t i = 0; i < count; ++i)
+            kept.emplace_back(1, char('a' + i));
+        d.slots.clear();
+        for (const std::string &name : kept)
+            d.slots.push_back({name.c_str(), access, 0});
+        d.desc.slot_count = count;
+    };
+    refused([&](auto &d) { with(d, BRUME_ACCESS_LINEAR, 17); },
+            "pass \"pass\": 17 slots to read and 0 to write; expected at most 16 and 8, which every OpenGL 4.5 has");
+    refused([&](auto &d) { with(d, BRUME_ACCESS_WRITE, 9); }, "0 slots to read and 9 to write");
     refused([](auto &d) { d.desc.constant_count = 257; }, "257 constants; expected at most 256");
     refused([](auto &d) { d.desc.constant_size = 1u << 20; }, "constants of 1048576 bytes; expected at most 16384");
     refused([](auto &d) { d.slots[1].name = nullptr; }, "slots[1]: its name is NULL");

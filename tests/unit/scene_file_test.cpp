@@ -284,6 +284,56 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         EXPECT_EQ(failure(with(bad.line)), std::string("fog.json:") + bad.message) << bad.line;
 }
 
+TEST(SceneFile, DescribesShadowMapsByProjection)
+{
+    auto lights = [](const char *type, const std::string &shadow) {
+        const std::string place = type == std::string("directional") ? R"("direction": [0,0,1])" : R"("position": [0,0,0])";
+        return with(R"("lights": [{"type": ")" + std::string(type) + R"(", )" + place + R"(, "intensity": 1, "shadow": )" +
+                    shadow + "}]");
+    };
+    auto map = [](const std::string &more) {
+        return R"({"file": "lamp.exr", "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], )" + more + "}";
+    };
+    auto read = [&](const char *type, const std::string &shadow) {
+        return parse(lights(type, shadow)).lights.front().shadow;
+    };
+    EXPECT_EQ(read("point", R"("screen")").kind, BRUME_SHADOW_SCREEN);
+    EXPECT_EQ(read("point", map(R"("vertical_fov": 90)")).kind, BRUME_SHADOW_PERSPECTIVE);
+    EXPECT_EQ(read("point", map(R"("projection": "perspective", "vertical_fov": 90)")).kind, BRUME_SHADOW_PERSPECTIVE);
+    EXPECT_EQ(read("point", map(R"("projection": "latlong")")).depth, BRUME_DEPTH_RAY);
+    EXPECT_EQ(read("directional", map(R"("orthographic_width": 9, "projection": "orthographic")")).kind,
+              BRUME_SHADOW_ORTHOGRAPHIC);
+    const LightShadow endless =
+        read("point", map(R"("vertical_fov": 90, "depth": "device", "near": 0.5, "reversed": true)"));
+    EXPECT_EQ(endless.depth, BRUME_DEPTH_DEVICE);
+    EXPECT_EQ(endless.range, (std::array<double, 2>{std::numeric_limits<double>::infinity(), 0.5}));
+    EXPECT_EQ(read("directional", map(R"("orthographic_width": 9, "depth": "device", "near": -1, "far": 5)")).range,
+              (std::array<double, 2>{-1, 5}));
+    struct Bad {
+        const char *type;
+        std::string shadow;
+        const char *message;
+    };
+    const Bad cases[] = {
+        {"point", R"("picture")", R"(shadow: "picture"; expected an object, or "screen")"},
+        {"directional", R"("screen")", R"(shadow: "screen"; expected an object)"},
+        {"point", map(R"("projection": "cube", "vertical_fov": 90)"),
+         R"(projection: "cube"; expected "perspective" or "latlong")"},
+        {"directional", map(R"("projection": "latlong")"), R"(projection: "latlong"; expected "orthographic")"},
+        {"point", map(R"("projection": "latlong", "vertical_fov": 90)"), R"(unknown key "vertical_fov")"},
+        {"point", map(R"("projection": "latlong", "depth": "planar")"), R"(depth: "planar"; expected "ray")"},
+        {"point", map(R"("vertical_fov": 90, "near": 1)"), "near: 1; expected none: depth is not device"},
+        {"point", map(R"("vertical_fov": 90, "depth": "device")"), R"(has no "near"; expected one)"},
+        {"directional", map(R"("orthographic_width": 9, "depth": "device", "near": 1)"), R"(has no "far"; expected one)"},
+        {"point", map(R"("vertical_fov": 90, "depth": "device", "near": 5, "far": 2)"),
+         "far: 2; expected a number above near, 5"},
+    };
+    for (const Bad &bad : cases) {
+        const std::string said = failure(lights(bad.type, bad.shadow));
+        EXPECT_NE(said.find(bad.message), std::string::npos) << bad.shadow << ": " << said;
+    }
+}
+
 TEST(SceneFile, RefusesWhatIsNoScene)
 {
     EXPECT_EQ(failure(""), "fog.json:1:1: syntax error while parsing value - unexpected end of input; expected '[', '{', "

@@ -47,13 +47,11 @@ constexpr brume_slot lights_slots[] = {fetch("attenuation"), fetch("attenuation_
                                        write("result")};
 static_assert(std::size(lights_slots) == maps::lights::slot_count);
 
-constexpr brume_slot gather_slots[] = {fetch("depth"),          fetch("gaussian_density"),  fetch("slices"),
-                                       linear("grid_density"),  linear("grid_lights"),      fetch("lights"),
-                                       fetch("environment"),    fetch("environment_table"), fetch("surroundings"),
-                                       fetch("light_shadows"),  fetch("shadow_0"),          fetch("shadow_1"),
-                                       fetch("shadow_2"),       fetch("shadow_3"),          fetch("previous"),
-                                       fetch("previous_error"), write("radiance"),          write("error"),
-                                       write("distances")};
+constexpr brume_slot gather_slots[] = {
+    fetch("depth"),          fetch("gaussian_density"), fetch("slices"),      linear("grid_density"),
+    linear("grid_lights"),   fetch("lights"),           fetch("environment"), fetch("environment_table"),
+    fetch("surroundings"),   fetch("light_shadows"),    fetch("shadow_maps"), fetch("previous"),
+    fetch("previous_error"), write("radiance"),         write("error"),       write("distances")};
 static_assert(std::size(gather_slots) == maps::gather::slot_count);
 
 constexpr brume_constant constants_table[] = {
@@ -305,8 +303,7 @@ brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, 
     images[slot::environment_table] = state_.environment_table;
     images[slot::surroundings] = state_.surroundings;
     images[slot::light_shadows] = product(product_light_shadows);
-    for (uint32_t i = 0; i < most_shadow_maps; ++i)
-        images[slot::shadow_0 + i] = state_.shadow_maps[i].image;
+    images[slot::shadow_maps] = product(product_light_shadows, 1);
     images[slot::previous] = before;
     images[slot::previous_error] = before_error;
     images[slot::radiance] = wanted.radiance;

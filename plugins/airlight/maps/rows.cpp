@@ -21,9 +21,8 @@ const Constants &constants_of(const brume_plugin_rows &call)
 // Whether the pixels' own ways differ too much for them to go side by side.
 bool needs_pixels(const Constants &constants)
 {
-    const auto &shadowed = constants.airlight.shadowed;
-    return constants.estimate || constants.airlight.orders != scalar::orders_single || shadowed.x || shadowed.y ||
-           shadowed.z || shadowed.w || constants.grid.cell < 2 * constants.reduction;
+    return constants.estimate || constants.airlight.orders != scalar::orders_single || constants.airlight.shadowed ||
+           constants.grid.cell < 2 * constants.reduction;
 }
 
 brume_status gather_pixels(const brume_plugin_rows *call, int32_t first, int32_t last)
@@ -40,9 +39,8 @@ brume_status gather_pixels(const brume_plugin_rows *call, int32_t first, int32_t
                   environment = texture_of(slots[gather::environment]),
                   environment_table = texture_of(slots[gather::environment_table]),
                   surroundings = texture_of(slots[gather::surroundings]),
-                  light_shadows = texture_of(slots[gather::light_shadows]), shadow_0 = texture_of(slots[gather::shadow_0]),
-                  shadow_1 = texture_of(slots[gather::shadow_1]), shadow_2 = texture_of(slots[gather::shadow_2]),
-                  shadow_3 = texture_of(slots[gather::shadow_3]);
+                  light_shadows = texture_of(slots[gather::light_shadows]),
+                  shadow_maps = texture_of(slots[gather::shadow_maps]);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.grid.size);
         const Airlight a = mapped_airlight(constants.estimate, medium, camera, constants.grid, constants.airlight,

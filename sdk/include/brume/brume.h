@@ -302,6 +302,7 @@ BRUME_API brume_status brume_scene_set_medium(brume_scene scene, const brume_med
 #define BRUME_SHADOW_PERSPECTIVE 1u  /* of POINT and SPOT */
 #define BRUME_SHADOW_ORTHOGRAPHIC 2u /* of DIRECTIONAL */
 #define BRUME_SHADOW_LATLONG 3u      /* of POINT and SPOT: all around; its middle looks down -z, +x is right of it, +y is its top */
+#define BRUME_SHADOW_SCREEN 4u       /* of POINT and SPOT: no map is brought; what the picture shows throws shadows, by its depth */
 
 #define BRUME_SURFACES_LIT 0u
 #define BRUME_SURFACES_UNLIT 1u
@@ -325,17 +326,21 @@ typedef struct brume_light {
   /* Where the light's shadow map looks: a depth picture of the scene from the light, which frames bring as the layer "shadow"
      of this light. Its pixels are square; depths are in scene units, and what is NaN, infinite or <= 0 shows nothing. */
   uint32_t shadow_kind;       /* BRUME_SHADOW_...; default NONE */
-  uint32_t shadow_depth;      /* BRUME_DEPTH_PLANAR (default) or BRUME_DEPTH_RAY; LATLONG: RAY */
+  uint32_t shadow_depth;      /* BRUME_DEPTH_PLANAR (default), _RAY or _DEVICE; LATLONG: RAY */
   double shadow_extent;       /* PERSPECTIVE: of the map's height [rad], 0 < extent < pi; ORTHOGRAPHIC: width of the map, in scene
-                                 units, > 0; LATLONG: not read */
+                                 units, > 0; LATLONG: not read. SCREEN: nothing of the map is read */
   double shadow_to_world[16]; /* as brume_camera.camera_to_world, of the map's camera */
 
   uint32_t surfaces; /* BRUME_SURFACES_LIT (default) or _UNLIT: nothing of what surfaces show is this light's */
   uint32_t reserved;
+
+  double shadow_range[2]; /* of DEVICE: planar distances where depth is 0 and where it is 1, in scene units; reversed where the first
+                             is the larger. PERSPECTIVE: > 0, either may be infinite; ORTHOGRAPHIC: depth is linear between them. The
+                             cleared value of the far end shows nothing. */
 } brume_light;
 #define BRUME_LIGHT_INIT {(uint32_t)sizeof(brume_light), 0u, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 1.0, 1.0}, \
                           0.0, 0.7853981633974483, 0.1, 0.0, BRUME_SHADOW_NONE, 0u, 0.0, \
-                          {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, 0u, 0u}
+                          {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, 0u, 0u, {0.0, 0.0}}
 BRUME_API void brume_light_init(brume_light *light, size_t size);
 
 #define BRUME_MAX_LIGHTS 4096u

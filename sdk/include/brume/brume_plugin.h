@@ -102,12 +102,14 @@ typedef struct brume_plugin_light {
   float surfaces;     /* BRUME_SURFACES_... */
   float reserved;
 
-  /* Its shadow map (brume_light.shadow_kind): these 16 floats are four texels of product "light_shadows". */
+  /* Its shadow map (brume_light.shadow_kind): see product "light_shadows". */
   float shadow_rows[3][4]; /* a point of camera space [m], 1 appended, times these is it in the space of the map's camera */
-  float shadow_kind;       /* BRUME_SHADOW_... */
+  float shadow_kind;       /* BRUME_SHADOW_PERSPECTIVE, _ORTHOGRAPHIC or _LATLONG; 0: there is none */
   float shadow_extent;     /* PERSPECTIVE: tangent of half the vertical field of view; ORTHOGRAPHIC: half the width [m] */
-  float shadow_depth;      /* BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY, in scene units */
-  float shadow_reserved;
+  float shadow_depth;      /* BRUME_DEPTH_PLANAR or BRUME_DEPTH_RAY, in scene units, or BRUME_DEPTH_DEVICE */
+  float shadow_screen;     /* 1: made by the host of the picture's depth; frames bring none */
+  float shadow_range[2];   /* DEVICE: 1/metres at 0 and at 1, ORTHOGRAPHIC: metres */
+  float shadow_reserved[2];
 } brume_plugin_light;
 
 typedef struct brume_plugin_scene {
@@ -155,8 +157,9 @@ typedef struct brume_plugin_layer {
                      by row: x the first and y the number of its entries in [2]. [2] data, one channel: indices of the
                      Gaussians that matter in the tile, by distance. count: of Gaussians
    lights            data: 4 texels each, as brume_plugin_light. count: of lights
-   light_shadows     data: 4 texels each, as brume_plugin_light from shadow_rows on; only where some light has a shadow map.
-                     count: of lights
+   light_shadows     only where some light has a shadow map: [0] data: 5 texels each: shadow_rows, then shadow_kind,
+                     shadow_extent, 1 where distances are along rays, 0, then x, y, width and height of the map's rectangle in [1].
+                     [1] one channel: all maps side by side, distances [m], 1e30 where nothing is. count: of lights
    visible_lights    data: 1 texel each, center and radius, of the lights that have a radius and so can be seen. count: of them
 
    Beside these, effects make what they name in `makes`. Names without images say what a picture holds: attenuated_radiance (it
