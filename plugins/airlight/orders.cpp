@@ -37,6 +37,17 @@ double deepest_gaussians(const brume_plugin_scene &scene, int width, int height)
     return deepest;
 }
 
+// Of a sun's fluence at the camera, as if that stood on the ground.
+double scattered_of_sun(const Medium &medium, const Light &sun, double gaussians, int c)
+{
+    const SunSlant slant = sun_slant(medium, sun.direction, vec3(0));
+    const double depth = std::min(terms_to_light(medium, sun, vec3(0)) + gaussians, 1e9);
+    const double s = medium.scattering[c] * depth, a = medium.absorption[c] * depth;
+    const SlabField field = slab_field(vec2(s * slant.cosine), vec2(a * slant.cosine), medium.asymmetry, 1, slant.cosine, 0);
+    const double straight = std::exp(-s - a), again = 2 * (field.down + field.up) + field.straight - straight;
+    return again > 0 ? again / (again + straight) : 0;
+}
+
 }  // namespace
 
 double scattered_on_the_way(const brume_plugin_scene &scene, int width, int height)
@@ -51,8 +62,11 @@ double scattered_on_the_way(const brume_plugin_scene &scene, int width, int heig
     double share = 0;
     for (int l = 0; l < int(scene.light_count); l += 1 + int(scene.light_count / most_lights)) {
         const Light light = light_at(data.texture(), l);
-        if (light.type == light_directional)
+        if (light.type == light_directional) {
+            for (int c = 0; c < 3; ++c)
+                share = std::max(share, scattered_of_sun(medium, light, least, c));
             continue;
+        }
         const double distance = length(light.position);
         const vec3 direction = light.position / std::max(distance, 1e-20);
         const double depth = std::min(

@@ -21,11 +21,10 @@ constexpr brume_parameter_info table[count] = {
         "resolution", "full|half|quarter", 0,
         "evaluate at every pixel, every second or every fourth; the rest is interpolated between pixels of like distance"),
     choice("orders", "single|all|auto", 2,
-           "single: what lamps scatter once toward the camera; all: any number of times, of points and spots, by tiers "
-           "nodes, maps and "
+           "single: what lights scatter once toward the camera; all: any number of times, by tiers nodes, maps and "
            "reference; auto: all beside an effect that scatters the picture's light, where what scatters again is more than "
            "max_error "
-           "of the lamps' light, else single"),
+           "of the lights', else single"),
     choice("ground", "none|y|z|auto", 3,
            "what takes of the fog's light that falls on it, with orders all. y, z: a plane below the lamps, from which this "
            "world "

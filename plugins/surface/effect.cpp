@@ -41,6 +41,7 @@ public:
         state_->width = request.width;
         state_->height = request.height;
         state_->method = read_method(request.parameters);
+        state_->ground = read_ground_albedo(request.parameters);
     }
 
     brume_status plan(std::unique_ptr<State> &out);
@@ -96,10 +97,13 @@ const char *Planner::why_not() const
         return "the medium's density is zero everywhere";
     if (!any(m.scattering) && !any(m.absorption))
         return "the medium neither scatters nor absorbs";
-    if (scene_.light_count == 0 && state_->method == Method::psf && scene_.environment_count == 0)
-        return "no lights and no environment";
-    if (scene_.light_count == 0 && state_->method != Method::psf)
+    if (scene_.light_count > 0)
+        return nullptr;
+    const bool knows_sky = state_->method == Method::calibrated || state_->method == Method::psf;
+    if (!knows_sky)
         return "no lights";
+    if (scene_.environment_count == 0)
+        return "no lights and no environment";
     return nullptr;
 }
 
@@ -132,10 +136,14 @@ brume_status Planner::plan_method()
         return services_.fail(
             host_, BRUME_ERROR_UNSUPPORTED,
             "method: reference on OpenGL; expected calibrated, sun or psf, or the CPU, on which alone references run");
+    const auto &m = *scene_.medium;
+    if (state_->method == Method::calibrated && scene_.environment_count > 0 && m.constant > 0 &&
+        scene_.camera->sky != int32_t(BRUME_SKY_CLAMP))
+        return entry(false, "environment",
+                     "constant density has no end without a sky's distance: the environment's part stays as it is", 0, 0);
     if (state_->method != Method::sun && state_->method != Method::psf)
         return BRUME_OK;
     const bool psf = state_->method == Method::psf;
-    const auto &m = *scene_.medium;
     if (m.phase[0] != 0 || m.phase[3] != 0)
         if (brume_status s = entry(false, "phase",
                                    std::string("method ") + (psf ? "psf" : "sun") +

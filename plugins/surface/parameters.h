@@ -10,5 +10,6 @@ enum class Method { calibrated, sun, psf, reference };
 
 std::span<const brume_parameter_info> parameter_table();
 Method read_method(const double *values);
+float read_ground_albedo(const double *values);
 
 }  // namespace surface

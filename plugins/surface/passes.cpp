@@ -37,6 +37,7 @@ constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, setti
                                               BRUME_CONSTANT_OF(Constants, settings, world_normals),
                                               BRUME_CONSTANT_OF(Constants, settings, material),
                                               BRUME_CONSTANT_OF(Constants, settings, shadowed),
+                                              BRUME_CONSTANT_OF(Constants, settings, ground),
                                               BRUME_CONSTANT(Constants, light),
                                               BRUME_CONSTANT(Constants, first)};
 
@@ -65,6 +66,7 @@ public:
         : services_(services), host_(host), frame_(frame), state_(state), scene_(*frame.scene)
     {
         constants_.settings.method = int32_t(state.method);
+        constants_.settings.ground = state.ground;
         constants_.settings.light_count = int32_t(scene_.light_count);
         constants_.settings.gaussian_count = scene_.gaussian_count <= most_gaussians ? int32_t(scene_.gaussian_count) : 0;
         for (uint32_t n = scene_.environment_count;

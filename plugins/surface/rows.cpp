@@ -16,16 +16,6 @@ const Constants &constants_of(const brume_plugin_rows &call)
     return *static_cast<const Constants *>(call.constants);
 }
 
-Material material_at(const SurfaceSettings &settings, const brume_plugin_pixels &albedo, const brume_plugin_pixels &specular,
-                     const brume_plugin_pixels &roughness, int x, int y)
-{
-    if (settings.material == 0)
-        return unknown_material();
-    const bool glossy = settings.material > 1;
-    return material_of(settings.material, vec3(load(albedo, x, y)), glossy ? vec3(load(specular, x, y)) : vec3(0.0f),
-                       glossy ? *at(roughness, x, y) : 1.0f);
-}
-
 }  // namespace
 
 brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
@@ -51,17 +41,19 @@ brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t la
     const Medium medium = medium_of(*call->scene);
     const Camera camera = camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
-    const Texture gaussians = texture_of(slots[group::gaussians]), table = texture_of(slots[group::table]);
+    const Texture gaussians = texture_of(slots[group::gaussians]), table = texture_of(slots[group::table]),
+                  albedo = texture_of(slots[group::albedo]), specular = texture_of(slots[group::specular]),
+                  roughness = texture_of(slots[group::roughness]);
     const Light light = light_at(texture_of(slots[group::lights]), constants.light);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[group::depth], x, y),
                                            vec3(load(slots[group::normals], x, y)));
         const Divided before{vec3(load(slots[group::rest], x, y)),
                              constants.first ? vec3(0.0f) : vec3(load(slots[group::lit], x, y))};
-        const Divided after = divided_by_group(
-            medium, constants.settings, surface, light,
-            material_at(constants.settings, slots[group::albedo], slots[group::specular], slots[group::roughness], x, y),
-            gaussians, table, before, vec3(load(slots[group::group], x, y)));
+        const Divided after =
+            divided_by_group(medium, constants.settings, surface, light,
+                             material_at(constants.settings.material, albedo, specular, roughness, ivec2(x, y)), gaussians,
+                             table, before, vec3(load(slots[group::group], x, y)));
         store(slots[group::rest_out], x, y, vec4(after.rest, 1.0f));
         store(slots[group::lit_out], x, y, vec4(after.lit, 1.0f));
     });
@@ -75,7 +67,9 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
     const brume_plugin_pixels *slots = call->slots;
     const Texture lights = texture_of(slots[compose::lights]), ungrouped = texture_of(slots[compose::ungrouped]),
                   gaussians = texture_of(slots[compose::gaussians]), environment = texture_of(slots[compose::environment]),
-                  table = texture_of(slots[compose::table]), light_shadows = texture_of(slots[compose::light_shadows]),
+                  table = texture_of(slots[compose::table]), albedo = texture_of(slots[compose::albedo]),
+                  specular = texture_of(slots[compose::specular]), roughness = texture_of(slots[compose::roughness]),
+                  light_shadows = texture_of(slots[compose::light_shadows]),
                   shadow_maps = texture_of(slots[compose::shadow_maps]);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const vec4 source = load(slots[compose::color], x, y);
@@ -85,8 +79,7 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
                                     ? Divided{vec3(source), vec3(0.0f)}
                                     : Divided{vec3(load(slots[compose::rest], x, y)), vec3(load(slots[compose::lit], x, y))};
         const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface,
-                                 material_at(constants.settings, slots[compose::albedo], slots[compose::specular],
-                                             slots[compose::roughness], x, y),
+                                 material_at(constants.settings.material, albedo, specular, roughness, ivec2(x, y)),
                                  vec3(source), divided, call->scene->output_limit);
         store(slots[compose::result], x, y, vec4(shown, source.w));
         if (slots[compose::surface_out].data)

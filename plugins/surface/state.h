@@ -31,6 +31,7 @@ struct State {
     int width = 0;
     int height = 0;
     Method method = Method::calibrated;
+    float ground = 0;                      // albedo
     brume_plugin_image normals = nullptr;  // from depth
     // Before and after one lamp's own layer, by turns.
     brume_plugin_image rest[2] = {};

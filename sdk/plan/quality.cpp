@@ -6,26 +6,16 @@
 
 #include <fmt/format.h>
 
+#include "plan/combinations.h"
+
 namespace brume {
 namespace {
 
 constexpr double preset_errors[] = {0.3, 0.1, 0.03, 0};  // from BRUME_PRESET_DRAFT on
 
-// One offer of one effect, and what the effect's passes cost with it.
-struct Option {
-    Offer offer;
-    double operations = 0;
-    double ms = 0;
-};
-
 struct Choosing {
     const Effect *effect;
     std::vector<Option> options;
-};
-
-struct Combination {
-    std::vector<const Option *> options;  // one for each Choosing
-    double error = 0, operations = 0, ms = 0;
 };
 
 EffectSettings &settings_of(Scene &scene, const std::string &effect)
@@ -66,22 +56,6 @@ Option rehearsed(const std::shared_ptr<Context> &context, const Scene &scene, co
             option.ms += entry.predicted_ms;
         }
     return option;
-}
-
-void combine(const std::vector<Choosing> &choosing, size_t at, Combination so_far, std::vector<Combination> &all)
-{
-    if (at == choosing.size()) {
-        all.push_back(std::move(so_far));
-        return;
-    }
-    for (const Option &option : choosing[at].options) {
-        Combination next = so_far;
-        next.options.push_back(&option);
-        next.error = std::hypot(so_far.error, option.offer.error);
-        next.operations += option.operations;
-        next.ms += option.ms;
-        combine(choosing, at + 1, next, all);
-    }
 }
 
 // The first of those that `fits` by `better`, or of all by `otherwise`; whether it fits.
@@ -145,8 +119,9 @@ Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &s
             std::none_of(choosing.begin(), choosing.end(), [&](auto &c) { return c.effect->name == entry.effect; }))
             others_ms += entry.predicted_ms;
 
-    std::vector<Combination> all;
-    combine(choosing, 0, {}, all);
+    std::vector<Combination> all{{}};
+    for (const Choosing &c : choosing)
+        all = with_each(all, c.options);
     auto more_accurate = [](const Combination &a, const Combination &b) {
         return a.error < b.error || (a.error == b.error && a.operations < b.operations);
     };

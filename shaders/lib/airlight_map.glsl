@@ -50,10 +50,14 @@ PURE AttenuationRay attenuation_ray(IN(Camera) camera, IN(AttenuationFrame) fram
         ray.start = -far_away;
         ray.spacing = R(1.0) / (float(side - 1) * sqrt(sqrt(across * along)));
     } else {
-        vec3 w = octahedral_direction(square);
-        ray.direction = vec3(dot(w, camera.right), dot(w, camera.up), dot(w, camera.back));
+        vec3 u = vec3(frame.u);
+        vec3 v = vec3(frame.v);
+        vec3 d = octahedral_direction(vec2(frame.u.w + square.x * frame.size.x, frame.v.w + square.y * frame.size.y));
+        ray.direction = u * d.x + v * d.y + cross(u, v) * d.z;
         ray.start = R(0.0);
-        ray.spacing = R(1.6) / float(side - 1);  // in the mean
+        float stretch = abs(d.x) + abs(d.y) + abs(d.z);
+        ray.spacing = R(2.0) * sqrt(frame.size.x * frame.size.y) * stretch * sqrt(stretch) / float(side - 1);
+        square = octahedral(in_world(camera, ray.direction));
     }
     vec4 grid = data_texel(shadow_origins, 3 * (1 + index) + 2);
     vec4 list = data_texel(cells, int(grid.x) + cell_of(square, int(grid.y)));

@@ -62,13 +62,56 @@ PURE float spot_spread(IN(Light) light, float mean_cosine, float cosine)
            (R(1.0) - kept) * R(0.5) * (R(1.0) - rim) * R(4.0) * pi * henyey_greenstein(lobe, cosine);
 }
 
-// The source toward the camera at t over sigma_s: what parallel light does is not among it, since it has no end. depth: int rho
-// dt between light and point.
+// int rho dt straight down from a point to the ground; huge where nobody knows of one beneath terms, and 0 beneath Gaussians alone.
+// around: of a sun, which counts as standing where the camera is.
+PURE float density_below(IN(Medium) medium, IN(Camera) camera, IN(Surroundings) around, vec3 point, vec3 up)
+{
+    if (medium.constant <= R(0.0) && medium.term_count == 0)
+        return R(0.0);
+    float distance = far_away;
+    if (any_plane(around)) {
+        vec3 up_in_world = in_world(camera, up);
+        vec3 steep = abs(up_in_world);
+        int axis = steep.x >= max(steep.y, steep.z) ? 0 : steep.y >= steep.z ? 1 : 2;
+        bool low = up_in_world[axis] > R(0.0);
+        float weight = low ? around.low_weight[axis] : around.high_weight[axis];
+        float place = in_world(camera, point)[axis];
+        float height = low ? around.low[axis] + place : around.high[axis] - place;
+        // What covers little is as far away.
+        distance = min(max(height, R(0.0)) / max(steep[axis] * weight, R(1e-6)), far_away);
+    }
+    return density_between(medium, point, -up, distance, distance);
+}
+
+// What a sun's light does that has been scattered before: slab_field() above a black ground, whose own light is the picture's, and
+// of the forward peak what does not come straight.
+PURE vec3 rescattered_sun(IN(Medium) medium, IN(Camera) camera, IN(Light) light, IN(Surroundings) around, vec3 direction, float t,
+                          float depth)
+{
+    vec3 point = t * direction;
+    SunSlant slant = sun_slant(medium, light.direction, point);
+    float above = depth * slant.cosine;
+    vec2 p = min(vec2(above, above + density_below(medium, camera, around, point, slant.up)), vec2(density_limit));
+    float g = medium.asymmetry;
+    vec3 sum = vec3(R(0.0));
+    for (int c = 0; c < 3; ++c) {
+        if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1]) {
+            sum[c] = sum[c - 1];
+            continue;
+        }
+        SlabField field = slab_field(medium.scattering[c] * p, medium.absorption[c] * p, g, R(1.0), slant.cosine, R(0.0));
+        float straight = exp(-min((medium.scattering[c] + medium.absorption[c]) * depth, orders_depth_limit));
+        sum[c] = slab_source(field, g, straight, -dot(light.direction, direction), dot(direction, slant.up));
+    }
+    return min(sum, vec3(radiance_limit)) * light.intensity;
+}
+
+// The source toward the camera at t over sigma_s. depth: int rho dt between light and point.
 PURE vec3 rescattered_strength(IN(Medium) medium, IN(Camera) camera, IN(Light) light, IN(Aspect) aspect, IN(Surroundings) around,
                                vec3 direction, float t, float depth)
 {
     if (light.type == light_directional)
-        return vec3(R(0.0));
+        return rescattered_sun(medium, camera, light, around, direction, t, depth);
     vec3 from = t * direction - light.position;
     float x = t - aspect.foot;
     float d = sqrt(aspect.height * aspect.height + x * x);
@@ -148,15 +191,14 @@ PURE Panel orders_panel(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetting
     return Panel(sum, rest.x * rest.y, rest.x * rest.y * rest.y);
 }
 
-// All that a lamp's scattered light adds to the ray, beside what the ray has already. It falls off as 1 / r from the lamp, which
+// All that a light's scattered light adds to the ray, beside what the ray has already. It falls off as 1 / r from a lamp, which
 // t = foot + h sinh(z) flattens.
 PURE Airlight lamp_orders(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES,
                           sampler2D tile_gaussians, IN(Sight) sight, int index, IN(Light) light, IN(Surroundings) around, vec3 terms,
                           vec3 beside)
 {
     Airlight sum = Airlight(vec3(R(0.0)), vec3(R(0.0)));
-    if (light.type == light_directional)
-        return sum;
+    bool sun = light.type == light_directional;
     Aspect aspect = aspect_of(light, sight.direction);
     float h = max(aspect.height, light.radius);
     float others = (beside.x + beside.y + beside.z) / R(3.0);
@@ -170,14 +212,15 @@ PURE Airlight lamp_orders(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetti
             float radius = R(1.0) / g.scale;
             range = vec2(max(center - R(4.0) * radius, R(0.0)), min(center + R(4.0) * radius, min(sight.distance, quadrature_limit)));
             float x = max(max(range.x - aspect.foot, aspect.foot - range.y), R(0.0));
-            if (max(h, x) > settings.near_radii * radius) {
+            if (sun || max(h, x) > settings.near_radii * radius) {
                 middle = center;
                 width = R(1.2) * radius;
             }
         }
         if (range.x >= range.y)
             continue;
-        Path path = bell_path(middle, width, range.x, range.y);
+        Path path = sun && part == part_terms ? terms_path(medium, light, aspect, range, terms.z)
+                                              : bell_path(middle, width, range.x, range.y);
         int left = settings.panels;
         float z = R(0.0);
         float dz = R(1.0);

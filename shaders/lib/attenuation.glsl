@@ -3,8 +3,10 @@
 //
 //   attenuation         one channel, int rho dt [m at unit density]: of light l in direction (x, y) from it to node k, the texel
 //                       (k side + x, l side + y). Directions lie on the corners of a grid, so that the map's edges join.
-//   attenuation_frames  3 texels per light: 0, 1  directional: the map's axes across the light, as texels 0 and 1 of
-//                       shadow_origins; 2  x the distance of node 0 and y that of the last; of directional lights along them
+//   attenuation_frames  3 texels per light. Of directional lights 0 and 1 are the map's axes across the light, as texels 0 and 1 of
+//                       shadow_origins; of others the map is a window of the octahedral square about an axis: xyz the directions in
+//                       which the square's x and y grow in its middle, w where the window begins in it. 2  x the distance of node 0
+//                       and y that of the last, of directional lights along them; zw the window's size
 //
 // Depths and not the paper's sixteen cosine coefficients of transmittances: they serve every colour and never ring.
 
@@ -13,22 +15,26 @@ struct AttenuationFrame {
     vec4 v;
     float near;
     float far;
+    vec2 size;
 };
 
 PURE AttenuationFrame attenuation_frame(sampler2D attenuation_frames, int light)
 {
     vec4 range = data_texel(attenuation_frames, 3 * light + 2);
-    return AttenuationFrame(data_texel(attenuation_frames, 3 * light), data_texel(attenuation_frames, 3 * light + 1), range.x, range.y);
+    return AttenuationFrame(data_texel(attenuation_frames, 3 * light), data_texel(attenuation_frames, 3 * light + 1), range.x, range.y,
+                            vec2(range.z, range.w));
 }
 
-// Where a point is: the unit square's place of its direction from the light, and its distance.
-PURE vec3 attenuation_place(IN(Camera) camera, IN(AttenuationFrame) frame, IN(Light) light, vec3 point)
+// Where a point is: the map's place of its direction from the light, 0 to 1, and its distance.
+PURE vec3 attenuation_place(IN(AttenuationFrame) frame, IN(Light) light, vec3 point)
 {
+    vec3 u = vec3(frame.u);
+    vec3 v = vec3(frame.v);
     if (light.type == light_directional)
-        return vec3(dot(vec3(frame.u), point) + frame.u.w, dot(vec3(frame.v), point) + frame.v.w, dot(light.direction, point));
+        return vec3(dot(u, point) + frame.u.w, dot(v, point) + frame.v.w, dot(light.direction, point));
     vec3 d = point - light.position;
-    vec2 square = octahedral(in_world(camera, d));
-    return vec3(square.x, square.y, length(d));
+    vec2 square = octahedral(vec3(dot(u, d), dot(v, d), dot(cross(u, v), d)));
+    return vec3((square.x - frame.u.w) / frame.size.x, (square.y - frame.v.w) / frame.size.y, length(d));
 }
 
 // Lights may stand at the end of all numbers.
@@ -37,12 +43,19 @@ PURE float or_zero(float x)
     return choose(is_finite(x), x, R(0.0));
 }
 
-// int rho dt of the Gaussians between the light and the point, over their distance; of directional lights itself. A mean density is
-// smooth where the light stands inside a Gaussian, and an integral is not.
-PURE float attenuation_density(IN(Camera) camera, IN(AttenuationFrame) frame, sampler2D attenuation, int side, int nodes, int index,
-                               IN(Light) light, vec3 point)
+// A node's depth, between texels: at (column, row) with its neighbours right and below.
+PURE float attenuation_across(sampler2D attenuation, float column, float row, float u, float v)
 {
-    vec3 place = attenuation_place(camera, frame, light, point);
+    return mix(mix(value_at(attenuation, column, row), value_at(attenuation, column + R(1.0), row), u),
+               mix(value_at(attenuation, column, row + R(1.0)), value_at(attenuation, column + R(1.0), row + R(1.0)), u), v);
+}
+
+// int rho dt of the Gaussians between the light and the point, over their distance; of directional lights itself. A mean density is
+// smooth where the light stands inside a Gaussian, and an integral is not. Outside the map is what is on its edge.
+PURE float attenuation_density(IN(AttenuationFrame) frame, sampler2D attenuation, int side, int nodes, int index, IN(Light) light,
+                               vec3 point)
+{
+    vec3 place = attenuation_place(frame, light, point);
     float most = float(side - 1);
     float x = clamp(or_zero(place.x), R(0.0), R(1.0)) * most;
     float y = clamp(or_zero(place.y), R(0.0), R(1.0)) * most;
@@ -54,13 +67,18 @@ PURE float attenuation_density(IN(Camera) camera, IN(AttenuationFrame) frame, sa
     float v = y - top;
     float w = z - node;
     float first = node * float(side) + left;
-    float second = first + float(side);
     float row = float(index * side) + top;
-    float nearer = mix(mix(value_at(attenuation, first, row), value_at(attenuation, first + R(1.0), row), u),
-                       mix(value_at(attenuation, first, row + R(1.0)), value_at(attenuation, first + R(1.0), row + R(1.0)), u), v);
-    float farther = mix(mix(value_at(attenuation, second, row), value_at(attenuation, second + R(1.0), row), u),
-                        mix(value_at(attenuation, second, row + R(1.0)), value_at(attenuation, second + R(1.0), row + R(1.0)), u), v);
-    float integral = mix(nearer, farther, w);
+    float nearer = attenuation_across(attenuation, first, row, u, v);
+    float farther = attenuation_across(attenuation, first + float(side), row, u, v);
+    float before = attenuation_across(attenuation, max(node - R(1.0), R(0.0)) * float(side) + left, row, u, v);
+    float behind = attenuation_across(attenuation, min(node + R(2.0), float(nodes - 1)) * float(side) + left, row, u, v);
+    // Cubic along the ray, with slopes from the neighbours and none that would turn it.
+    float step = farther - nearer;
+    float step_before = choose(node > R(0.0), nearer - before, step);
+    float step_behind = choose(node < float(nodes - 2), behind - farther, step);
+    float from = min(R(0.5) * (step_before + step), R(3.0) * min(step_before, step));
+    float to = min(R(0.5) * (step + step_behind), R(3.0) * min(step, step_behind));
+    float integral = nearer + w * (from + w * (R(3.0) * step - R(2.0) * from - to + w * (from + to - R(2.0) * step)));
     if (light.type == light_directional)
         return choose(place.x == clamp(place.x, R(0.0), R(1.0)) && place.y == clamp(place.y, R(0.0), R(1.0)), integral, R(0.0));
     return integral / max(place.z, R(1e-6));

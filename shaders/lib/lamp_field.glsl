@@ -1,4 +1,5 @@
-// What arrives of a lamp's light in an endless medium, however often it was scattered. Needs radiance.glsl.
+// What arrives of a lamp's light in an endless medium, however often it was scattered. Needs radiance.glsl, phase.glsl.
+#include "slab_field.glsl"
 //
 // In an endless medium of s' = sigma_a + (1 - g) sigma_s, with x = s' r and a = sigma_a / s', a lamp's fluence is I T / r^2 and its
 // net flux 4 pi I F,

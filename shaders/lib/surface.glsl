@@ -65,6 +65,7 @@ struct SurfaceSettings {
     int world_normals;
     int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
     int shadowed;  // as AirlightSettings has it
+    float ground;  // albedo of what lies below, for suns and sky
 };
 
 // What a surface receives of a lamp over what it would in clear air, by the method that is asked for.
@@ -140,26 +141,54 @@ PURE float density_to_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) lig
     vec3 way = light.position - surface.point;
     float distance = length(way);
     vec3 direction = way / max(distance, R(1e-20));
+    if (light.type == light_directional) {
+        distance = far_away;
+        direction = -light.direction;
+    }
     float p = terms_to_light(medium, light, surface.point);
     for (int i = 0; i < gaussian_count; ++i)
         p += profile_depth(profile_along(gaussian_at(gaussians, i), surface.point, direction), R(0.0), distance);
     return clamp(p, R(0.0), density_limit);
 }
 
-// share_by_method() of each colour. Parallel light comes through a medium that has no end, which the model does not know: its share
-// stays as it is.
+// Cosine between the normal and the way up.
+PURE float cosine_up(IN(Surface) surface, vec3 up)
+{
+    return surface.normal == vec3(R(0.0)) ? R(1.0) : clamp(dot(surface.normal, up), R(-1.0), R(1.0));
+}
+
+// Of a sun's irradiance across its rays, at these optical depths of the way to it: diffuse light comes from above alike.
+PURE Received received_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up,
+                              float normal_up)
+{
+    float s = scattering * sun_up;
+    float a = absorption * sun_up;
+    SlabField field = slab_field(vec2(s), vec2(a), asymmetry, R(1.0), sun_up, settings.ground);
+    return Received(field.straight, field.down * R(0.5) * (R(1.0) + normal_up));
+}
+
+// share_by_method() of each colour; of suns by method calibrated alone, else theirs stays as it is.
 PURE vec3 received_of_light(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
                             sampler2D gaussians, sampler2D table)
 {
-    if (light.type == light_directional)
+    bool sun = light.type == light_directional;
+    if (sun && settings.method != method_calibrated)
         return vec3(R(1.0));
+    SunSlant slant = SunSlant(vec3(R(0.0)), R(1.0));
+    if (sun)
+        slant = sun_slant(medium, light.direction, surface.point);
     float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     float cosine = cosine_to(surface, light);
     vec3 share = vec3(R(1.0));
     for (int c = 0; c < 3; ++c) {
         if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1])
             share[c] = share[c - 1];
-        else
+        else if (sun) {
+            Received r = received_of_sun(settings, min(medium.scattering[c] * p, orders_depth_limit),
+                                         min(medium.absorption[c] * p, orders_depth_limit), medium.asymmetry, slant.cosine,
+                                         cosine_up(surface, slant.up));
+            share[c] = r.along + r.aside / max(cosine, least_cosine);
+        } else
             share[c] = share_by_method(settings, table, min(medium.scattering[c] * p, orders_depth_limit),
                                        min(medium.absorption[c] * p, orders_depth_limit), medium.asymmetry, cosine);
     }
@@ -200,6 +229,20 @@ PURE Material material_of(int parts, vec3 albedo, vec3 specular, float roughness
     return Material(true, of_all, of_gloss, tint, glossy ? phong_exponent(roughness) : R(1.0));
 }
 
+// Of a pixel; parts: as SurfaceSettings::material.
+PURE Material material_at(int parts, sampler2D albedo, sampler2D specular, sampler2D roughness, ivec2 p)
+{
+    if (parts == 0)
+        return unknown_material();
+    vec3 of_gloss = vec3(R(0.0));
+    float rough = R(1.0);
+    if (parts > 1) {
+        of_gloss = vec3(texelFetch(specular, p, 0));
+        rough = texelFetch(roughness, p, 0).x;
+    }
+    return material_of(parts, vec3(texelFetch(albedo, p, 0)), of_gloss, rough);
+}
+
 // How a surface's glossy part reflects toward the camera.
 struct Shine {
     vec3 mirrored;  // the lobe's axis
@@ -222,17 +265,24 @@ PURE Shine shine_of(IN(Surface) surface, IN(Material) material)
 PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light, IN(Material) material,
                       sampler2D gaussians, sampler2D table, vec3 own)
 {
-    if (!material.known || light.type == light_directional || surface.normal == vec3(R(0.0)))
+    bool sun = light.type == light_directional;
+    if (!material.known || (sun && settings.method != method_calibrated) || surface.normal == vec3(R(0.0)))
         return own * received_of_light(medium, settings, surface, light, gaussians, table);
     float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     vec3 from = surface.point - light.position;
     float distance = max(length(from), smallest_light);
     vec3 to_lamp = -from / distance;
+    float strength = min(fluence(distance, light.radius), radiance_limit);
+    SunSlant slant = SunSlant(vec3(R(0.0)), R(1.0));
+    if (sun) {
+        to_lamp = -light.direction;
+        strength = R(1.0);
+        slant = sun_slant(medium, light.direction, surface.point);
+    }
     Shine shine = shine_of(surface, material);
     vec3 gloss = shine.gloss;
     float mirror_cosine = dot(shine.mirrored, to_lamp);
     float cosine = cosine_to(surface, light);
-    float strength = min(fluence(distance, light.radius), radiance_limit);
     // What leaves a spot's cone is not followed.
     float straight = light.type == light_spot ? spot_factor(light, dot(from, light.direction) / distance) : R(1.0);
     float n = material.exponent;
@@ -249,7 +299,17 @@ PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surfac
             float scattering = min(medium.scattering[c] * p, orders_depth_limit);
             float absorption = min(medium.absorption[c] * p, orders_depth_limit);
             kept = exp(-(scattering + absorption));
-            if (settings.method == method_calibrated) {
+            if (sun) {
+                float up = cosine_up(surface, slant.up);
+                Received r = received_of_sun(settings, scattering, absorption, medium.asymmetry, slant.cosine, up);
+                along = r.along;
+                aside = r.aside;
+                // Radiance from above is even but for the sun's own forward peak.
+                float sky = R(0.5) * (R(1.0) + clamp(dot(shine.mirrored, slant.up), R(-1.0), R(1.0)));
+                mirrored_aside = r.aside / max(pi * R(0.5) * (R(1.0) + up), R(1e-6)) * sky +
+                                 max(along - kept, R(0.0)) *
+                                     henyey_greenstein(medium.asymmetry * (n + R(1.0)) / (n + R(2.0)), mirror_cosine);
+            } else if (settings.method == method_calibrated) {
                 Received r = received(scattering, absorption, medium.asymmetry, cosine);
                 Rescattered again = rescattered(scattering, absorption, medium.asymmetry);
                 along = r.along;
@@ -330,8 +390,50 @@ PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSet
     return sum;
 }
 
-// What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's, which stays but for
-// method psf.
+// int rho dt from a surface up, out of the medium; negative where it has no end.
+PURE float density_above(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians, int gaussian_count, vec3 point, vec3 up)
+{
+    if (medium.constant > R(0.0) && camera.sky != sky_clamp)
+        return R(-1.0);
+    float p = density_between(medium, point, up, far_away, medium.constant > R(0.0) ? camera.sky_distance : R(0.0));
+    for (int i = 0; i < gaussian_count; ++i)
+        p += profile_depth(profile_along(gaussian_at(gaussians, i), point, up), R(0.0), far_away);
+    return clamp(p, R(0.0), density_limit);
+}
+
+// What is left of the environment's part by method calibrated. Layers lie as thinning_way() has it, else along the surface. An even
+// sky, over a ground that gives all back and fog that absorbs nothing, is as it was.
+PURE vec3 environment_share(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D environment,
+                            sampler2D gaussians, IN(Surface) surface)
+{
+    vec3 up = thinning_way(medium, surface.point);
+    if (up == vec3(R(0.0)))
+        up = surface.normal;
+    if (up == vec3(R(0.0)))
+        return vec3(R(1.0));
+    vec3 normal = surface.normal == vec3(R(0.0)) ? up : surface.normal;
+    float p = density_above(medium, camera, gaussians, settings.gaussian_count, surface.point, up);
+    if (p < R(0.0))
+        return vec3(R(1.0));
+    vec3 clear = environment_irradiance(environment, settings.environment_order, in_world(camera, normal));
+    vec3 above = environment_irradiance(environment, settings.environment_order, in_world(camera, up));
+    vec3 below = environment_irradiance(environment, settings.environment_order, in_world(camera, -up));
+    vec3 around = mix(below, above, R(0.5) * (R(1.0) + clamp(dot(normal, up), R(-1.0), R(1.0))));
+    float g = medium.asymmetry;
+    vec3 share = vec3(R(1.0));
+    for (int c = 0; c < 3; ++c) {
+        float s = min(medium.scattering[c] * p, orders_depth_limit);
+        float a = min(medium.absorption[c] * p, orders_depth_limit);
+        float all = slab_field(vec2(s), vec2(a), g, R(0.0), R(1.0), settings.ground).down;
+        // Even light keeps e^(-1.66 t) of its ways, within a twentieth (2 E_3).
+        float along = min(exp(-R(1.66) * min(s * (R(1.0) - g * g) + a, orders_depth_limit)), all);
+        float becomes = along * clear[c] + (all - along) * around[c];
+        share[c] = clear[c] > R(0.0) ? min(becomes / max(clear[c], R(1e-30)), radiance_limit) : all;
+    }
+    return share;
+}
+
+// What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's.
 // ungrouped: of each light, 1 where it has a part in that.
 PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES, SHADOW_MAP_IMAGES,
                         IN(Surface) surface, IN(Material) material, vec3 rest)
@@ -350,6 +452,9 @@ PURE vec3 rest_received(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings
         vec3 own = rest * (sky / max(all, vec3(R(1e-30))));
         change = lit_by_environment(medium, camera, settings, SURFACE_PASSED, surface, material, own) - own;
     }
+    if (settings.method == method_calibrated && settings.environment_order > 0)
+        change = rest * (sky / max(all, vec3(R(1e-30)))) *
+                 (environment_share(medium, camera, settings, environment, gaussians, surface) - R(1.0));
     for (int l = 0; l < settings.light_count; ++l) {
         if (data_texel(ungrouped, l).x == R(0.0))
             continue;

@@ -83,9 +83,10 @@ PURE vec4 surroundings_texel(IN(SurroundingsSettings) settings, IN(Camera) camer
 {
     int axis = side / 2;
     Bool high = side - 2 * axis == 1;
-    if (light.type == light_directional || settings.kind == surroundings_open)
+    if (settings.kind == surroundings_open)
         return vec4(R(0.0));
-    vec3 lamp = in_world(camera, light.position);
+    // A sun's ground is what the camera has around it.
+    vec3 lamp = light.type == light_directional ? vec3(R(0.0)) : in_world(camera, light.position);
     if (settings.kind == surroundings_ground) {
         Bool is_ground = axis == settings.axis && !high;
         return is_ground ? vec4(max(lamp[axis] + settings.height, R(0.0)), R(1.0), R(0.0), R(0.0)) : vec4(R(0.0));

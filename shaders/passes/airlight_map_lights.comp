@@ -28,6 +28,6 @@ void main()
     if (texel.x >= brume_grid.x || texel.y >= brume_grid.y || slice > grid.slices)
         return;
     vec3 direction = grid_direction(brume_camera, grid, vec2(texel - grid_corner(grid, slice)));
-    imageStore(result, texel, grid_lights_texel(brume_camera, grid, attenuation, attenuation_frames, lights, light_range.x,
+    imageStore(result, texel, grid_lights_texel(grid, attenuation, attenuation_frames, lights, light_range.x,
                                                 light_range.y, direction, data_texel(slices, slice).x));
 }

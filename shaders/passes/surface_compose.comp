@@ -41,9 +41,6 @@ uniform sampler2D shadow_maps;
 writeonly uniform image2D result;
 writeonly uniform image2D surface_out;
 
-#define MATERIAL_AT(p) material_of(settings.material, texelFetch(albedo, p, 0).rgb, texelFetch(specular, p, 0).rgb, \
-                                   texelFetch(roughness, p, 0).r)
-
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
@@ -52,7 +49,7 @@ void main()
     vec4 source = texelFetch(color, p, 0);
     Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided divided = first != 0 ? Divided(source.rgb, vec3(0.0)) : Divided(texelFetch(rest, p, 0).rgb, texelFetch(lit, p, 0).rgb);
-    vec3 shown = relit(brume_medium, brume_camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, MATERIAL_AT(p), source.rgb, divided, brume_output_limit);
+    vec3 shown = relit(brume_medium, brume_camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material_at(settings.material, albedo, specular, roughness, p), source.rgb, divided, brume_output_limit);
     imageStore(result, p, vec4(shown, source.a));
     imageStore(surface_out, p, vec4(shown, 1.0));
 }

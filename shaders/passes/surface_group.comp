@@ -37,9 +37,6 @@ uniform sampler2D roughness;
 writeonly uniform image2D rest_out;
 writeonly uniform image2D lit_out;
 
-#define MATERIAL_AT(p) material_of(settings.material, texelFetch(albedo, p, 0).rgb, texelFetch(specular, p, 0).rgb, \
-                                   texelFetch(roughness, p, 0).r)
-
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
@@ -48,7 +45,7 @@ void main()
     Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided before = Divided(texelFetch(rest, p, 0).rgb, first != 0 ? vec3(0.0) : texelFetch(lit, p, 0).rgb);
     Divided after = divided_by_group(brume_medium, settings, surface, light_at(lights, light),
-                                     MATERIAL_AT(p), gaussians, table, before,
+                                     material_at(settings.material, albedo, specular, roughness, p), gaussians, table, before,
                                      texelFetch(group, p, 0).rgb);
     imageStore(rest_out, p, vec4(after.rest, 1.0));
     imageStore(lit_out, p, vec4(after.lit, 1.0));

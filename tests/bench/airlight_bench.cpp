@@ -46,10 +46,10 @@ double cpu_milliseconds()
 }
 
 // Mean relative error of a picture at these pixels.
-double error_of(const fog::Picture &airlight, const View &view, const std::vector<Pixel> &pixels)
+double error_of(const fog::Picture &airlight, const View &view, const std::vector<Probe> &pixels)
 {
     double sum = 0;
-    for (const Pixel &p : pixels)
+    for (const Probe &p : pixels)
         sum += std::abs(airlight.at(p.x - view.left(), p.y - view.top())[0] - p.exact) / p.exact;
     return sum / double(pixels.size());
 }
@@ -120,14 +120,14 @@ struct Marched {
 };
 
 // The least number of steps, in ratios of about 1.4, whose error is no larger; its time for all pixels on all threads.
-Marched marched_to(const March &march, const Cloud &cloud, const View &view, const std::vector<Pixel> &pixels, double error)
+Marched marched_to(const March &march, const Cloud &cloud, const View &view, const std::vector<Probe> &pixels, double error)
 {
     for (double steps = 2;; steps *= 1.4142135623730951) {
         Marched m{int(steps)};
         auto run = [&] {
             m.error = 0;
             const double start = cpu_milliseconds();
-            for (const Pixel &p : pixels) {
+            for (const Probe &p : pixels) {
                 const vec3 direction = view.direction(p);
                 m.error +=
                     std::abs(march.airlight(direction, wall / -direction.z, cloud.lights, m.steps) - p.exact) / p.exact;
@@ -181,7 +181,7 @@ void table(Report &report, bool quick)
             const View &view = n > 10000 ? table_spot : n > 1000 ? table_middle : table_view;
             const March march(cloud.gaussians, cloud.radius);
             // Those that the reduced resolution evaluates.
-            std::vector<Pixel> pixels;
+            std::vector<Probe> pixels;
             std::mt19937 random(3);
             for (int i = 0; i < (n > 10000 ? 16 : n > 1000 ? 48 : 96); ++i)
                 pixels.push_back({view.left() + 4 * int(random() % unsigned(view.image_width() / 4)) + 2,

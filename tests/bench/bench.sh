@@ -11,12 +11,12 @@ build/release/bin/filter_bench ${1:+"$1"} "$out/filter.json" "$out/filter.md"
 build/release/bin/airlight_accuracy ${1:+"$1"} "$out/airlight.json" "$out/airlight.md"
 build/release/bin/airlight_bench ${1:+"$1"} "$out/airlight_speed.json" "$out/airlight_speed.md"
 build/release/bin/maps_bench 353 1 353 3 3008 1 3008 3 3008 8 | tee "$out/maps.md"
+build/release/bin/map_bases | tee "$out/map_bases.md"
 tests/bench/sequence_bench.sh build/release/bin/brume samples/frames "$out"
 build/release/bin/surface_calibration ${1:+"$1"} | tee "$out/surface_calibration.txt"
+build/release/bin/slab_calibration ${1:+"$1"} | tee "$out/slab_calibration.txt"
 build/release/bin/surface_accuracy ${1:+"$1"} | tee "$out/surface_accuracy.txt"
 build/release/bin/quality_bench ${1:+"$1"} "$out/quality.json" "$out/quality.md"
 tests/bench/trade.sh ${1:+"$1"}
 build/release/bin/effect_tests --gtest_filter='Truth.*:Paper.*:*ResolutionInvariance*:*WholeFilter*' | grep -v '^\[' | tee "$out/accuracy.txt"
-echo "in $out: filter.json, filter.md, airlight.json, airlight.md,
-  airlight_speed.json, airlight_speed.md, maps.md, sequence.md, accuracy.txt, surface_calibration.txt, surface_accuracy.txt,
-  quality.json, quality.md, trade.json, trade.md, trade.svg, trade.png"
+echo "in $out: $(ls "$out" | tr "\n" " ")"

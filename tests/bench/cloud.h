@@ -107,7 +107,7 @@ struct Cloud {
     }
 };
 
-struct Pixel {
+struct Probe {
     int x, y;
     double exact = 0;
 };
@@ -124,7 +124,7 @@ struct View {
     // Pixels of the whole picture; the cloud looks alike everywhere.
     double scale() const { return double(part) * part; }
 
-    vec3 direction(const Pixel &p) const
+    vec3 direction(const Probe &p) const
     {
         const float scale = 2 * half_tangent / float(height);
         return glm::normalize(vec3((float(p.x) + 0.5f - 0.5f * float(width)) * scale,

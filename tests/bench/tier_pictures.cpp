@@ -7,11 +7,9 @@
 // Errors are |tier - reference| / reference of the airlight's green, by decades: a colour for each from 1e-7 to 1.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iostream>
 
-#include <png.h>
-
+#include "canvas.h"
 #include "exr.h"
 #include "lit_scene.h"
 
@@ -19,7 +17,7 @@ using namespace fog;
 
 namespace {
 
-constexpr int reduction = 3, zoom = 2, gap = 2, legend = 6;
+constexpr int reduction = 3, gap = 2, legend = 6;
 
 // Colour is averaged, depth is not.
 Frame reduced_frame(const std::string &file)
@@ -70,39 +68,6 @@ Result through(const char *tier, Json scene, const Frame &frame)
     return run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, {"airlight"}});
 }
 
-class Canvas {
-public:
-    Canvas(int width, int height)
-        : width_(zoom * width), height_(zoom * height), rgb_(size_t(width_) * size_t(height_) * 3, 255)
-    {
-    }
-
-    void set(int x, int y, const double (&linear)[3])
-    {
-        for (int c = 0; c < 3; ++c) {
-            const double v = std::clamp(linear[c], 0.0, 1.0),
-                         encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-            for (int i = 0; i < zoom * zoom; ++i)
-                rgb_[(size_t(zoom * y + i / zoom) * size_t(width_) + size_t(zoom * x + i % zoom)) * 3 + size_t(c)] =
-                    uint8_t(std::lround(255 * encoded));
-        }
-    }
-    void write(const std::string &file) const
-    {
-        png_image image{};
-        image.version = PNG_IMAGE_VERSION;
-        image.width = png_uint_32(width_);
-        image.height = png_uint_32(height_);
-        image.format = PNG_FORMAT_RGB;
-        if (!png_image_write_to_file(&image, file.c_str(), 0, rgb_.data(), 0, nullptr))
-            throw std::runtime_error(file + ": " + image.message);
-    }
-
-private:
-    int width_, height_;
-    std::vector<uint8_t> rgb_;
-};
-
 // Black, violet, blue, cyan, green, yellow, red, white: up to 1e-7, 1e-6, ... 1e-1, above.
 const double decades[8][3] = {{0, 0, 0},         {0.1, 0, 0.2},   {0.02, 0.05, 0.6}, {0, 0.4, 0.7},
                               {0.05, 0.5, 0.05}, {0.9, 0.8, 0.1}, {0.8, 0.05, 0.02}, {1, 1, 1}};
@@ -116,7 +81,7 @@ void draw(const std::string &file, const Json &scene, const std::vector<const ch
 {
     const Picture reference = through("reference", scene, frame).airlight;
     const int w = frame.depth.width, h = frame.depth.height, columns = int(tiers.size());
-    Canvas canvas(columns * w + (columns - 1) * gap, 2 * h + 2 * gap + legend);
+    Canvas canvas(columns * w + (columns - 1) * gap, 2 * h + 2 * gap + legend, 2);
     for (int k = 0; k < columns; ++k) {
         const Result r = through(tiers[size_t(k)], scene, frame);
         double sum = 0;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/baselines.hpp"
+#include "bench/mip_pyramid.hpp"
 #include "bench/pareto.hpp"
 #include "files.hpp"
 
@@ -33,6 +34,7 @@ TEST(Baselines, KeepAUniformPictureAndWhatNoFogCovers)
     in.image.height = 20;
     in.image.rgb.assign(3 * 40 * 20, 0.25f);
     in.transmittance.assign(40 * 20, 0.3f);
+    in.focal = 20;
     Picture out = in.image;
     for (const Baseline &baseline : baselines()) {
         baseline.apply(in, out);
@@ -50,6 +52,30 @@ TEST(Baselines, KeepAUniformPictureAndWhatNoFogCovers)
         baseline.apply(in, out);
         EXPECT_GT(out.rgb[3 * 92], 0.25f) << baseline.name << ": the bright pixel reaches others";
     }
+}
+
+TEST(Baselines, MipPyramidKeepsMeansAndWidensByLevels)
+{
+    Picture point;
+    point.width = point.height = 64;
+    point.rgb.assign(3 * 64 * 64, 0);
+    for (int c = 0; c < 3; ++c)
+        point.rgb[3 * (32 * 64 + 32) + std::size_t(c)] = 100;
+    const MipPyramid pyramid(point, INFINITY), capped(point, 10);
+    for (const float level : {0.f, 1.f, 2.f, 2.5f}) {
+        double sum = 0, variance = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const double v = pyramid.at(x, y, level)[0];
+                sum += v;
+                variance += v * (x - 32) * (x - 32);
+            }
+        EXPECT_NEAR(sum, 100, 1e-3) << level;
+        EXPECT_NEAR(std::sqrt(variance / sum) + 1, std::max(1.f, std::exp2(level)) * 1.1 + (level > 0 ? 1 : -0.1), 1)
+            << level;
+    }
+    EXPECT_EQ(capped.at(32, 32, 0)[1], 100) << "the picture itself is not cut";
+    EXPECT_NEAR(capped.at(32, 32, 1)[1], pyramid.at(32, 32, 1)[1] / 10, 1e-5);
 }
 
 class Bench : public testing::Test {

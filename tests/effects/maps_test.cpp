@@ -108,6 +108,11 @@ std::vector<NamedScene> clouds()
     const Json spot{{"type", "spot"}, {"position", {-3, 4, -7}}, {"direction", {0.5, -0.8, -0.2}},
                     {"angle", 40},    {"penumbra", 0.4},         {"intensity", 60}};
     all.push_back({"spot", scene_of(cloud(300, 6), Json::array({spot})), {}});
+    const Json beam{{"type", "spot"},  {"position", {-25, 40, -20}}, {"direction", {0.5, -0.85, 0.24}}, {"angle", 7},
+                    {"penumbra", 0.3}, {"intensity", 20000}};
+    all.push_back({"a lamp and a spot, far away",
+                   scene_of(cloud(200, 12), Json::array({point_light({40, 20, 10}, 20000), beam})),
+                   {}});
     Json inside = cloud(200, 7);
     for (Json &g : inside)
         g["center"][2] = g["center"][2].get<double>() + 8.5;

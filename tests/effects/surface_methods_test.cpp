@@ -257,7 +257,7 @@ TEST_P(SurfaceMethodOn, FiniteAtTheExtremes)
 }
 
 // An environment that is alike everywhere gives a wall in the middle of a Gaussian pi (e^-T + albedo T e^-T 4 pi NPSF_0) of
-// its 1.
+// its 1, and as a layer what two streams have.
 TEST_P(SurfaceMethodOn, TheEnvironmentsPart)
 {
     const Wall wall;
@@ -267,8 +267,11 @@ TEST_P(SurfaceMethodOn, TheEnvironmentsPart)
     s["lights"] = Json::array({point_light({0, 0, -100}, 1e-9)});
     const double depth = 0.4 * 1.5 / 0.7 * std::sqrt(pi) / 2;
     const double c0 = brume::airlight::psf_coefficients(depth)[0];
-    const bool psf = std::string(method()) == "psf";
-    const double want = psf ? std::exp(-depth) + 0.5 * 0.75 * std::sqrt(4 * pi) * c0 * depth * std::exp(-depth) : 1;
+    const bool psf = std::string(method()) == "psf", calibrated = std::string(method()) == "calibrated";
+    using brume::maths_double::slab_field, brume::maths_double::vec2;
+    const double want = psf          ? std::exp(-depth) + 0.5 * 0.75 * std::sqrt(4 * pi) * c0 * depth * std::exp(-depth)
+                        : calibrated ? slab_field(vec2(0.75 * depth), vec2(0.25 * depth), 0, 0, 1, 0.2).down
+                                     : 1;
     const Picture got = relit(context(), s, wall.color, wall.depth, wall.material);
     EXPECT_NEAR(got.at(1, 1)[0], want, 2e-3);
     s["lights"] = Json::array();

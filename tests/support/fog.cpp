@@ -93,11 +93,12 @@ brume_layer layer(const char *name, const brume_image *image, uint32_t light)
 }
 
 Plan::Plan(brume_context context, const std::string &scene_text, int width, int height, const Options &options,
-     const std::function<void(brume_scene)> &further)
+           const std::function<void(brume_scene)> &further)
     : context_(context)
 {
     brume_scene scene = nullptr;
-    Context::check(brume_scene_create_from_text(context, scene_text.data(), scene_text.size(), "test.json", &scene), context);
+    Context::check(brume_scene_create_from_text(context, scene_text.data(), scene_text.size(), "test.json", &scene),
+                   context);
     std::unique_ptr<brume_scene_t, decltype(&brume_scene_destroy)> guard(scene, brume_scene_destroy);
     if (further)
         further(scene);

@@ -182,47 +182,6 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     return create_map_passes(services, host, state);
 }
 
-namespace {
-
-// How far from a light the medium's Gaussians begin and end; of directional lights along them, from the camera.
-void find_range(const brume_plugin_scene &scene, const brume_plugin_light &light, float *range)
-{
-    using namespace brume::maths_double;
-    const Medium medium = medium_of(scene);
-    const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
-    const vec3 position(light.position[0], light.position[1], light.position[2]),
-        direction(light.direction[0], light.direction[1], light.direction[2]);
-    double near = 1e30, far = -1e30;
-    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-        const Gaussian g = gaussian_of(scene.gaussians[i]);
-        const double reach = gaussian_reach(medium, g),
-                     at = parallel ? dot(direction, g.center) : length(g.center - position);
-        near = std::min(near, at - reach);
-        far = std::max(far, at + reach);
-    }
-    if (!parallel)
-        near = std::max(near, 0.0);
-    if (!(near < far)) {
-        near = 0;
-        far = 1;
-    }
-    range[0] = float(near);
-    range[1] = float(std::max(far, near + 1e-6 * std::max(1.0, std::abs(near))));
-}
-
-// attenuation_frames; what a move of the camera leaves as it is stays.
-void place_frames(const brume_plugin_scene &scene, const ShadowLists &lists, bool moved, std::vector<float> &texels)
-{
-    texels.resize(size_t(scene.light_count) * 12);
-    for (uint32_t l = 0; l < scene.light_count; ++l) {
-        std::copy_n(&lists.origins[12 * (1 + l)], 8, &texels[12 * l]);
-        if (moved || scene.lights[l].type == BRUME_LIGHT_DIRECTIONAL)
-            find_range(scene, scene.lights[l], &texels[12 * l + 8]);
-    }
-}
-
-}  // namespace
-
 brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,
                           State &state)
 {
@@ -232,8 +191,8 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
         return s;
     if (scene.light_count == 0)
         return BRUME_OK;
-    place_frames(scene, state.lists, moved, m.frame_texels);
-    if (brume_status s = upload(services, host, upload_attenuation_frames, 4, m.frame_texels, m.frames))
+    m.placed.place(scene, state.lists, state.parameters.orders == Orders::all, moved);
+    if (brume_status s = upload(services, host, upload_attenuation_frames, 4, m.placed.texels, m.frames))
         return s;
     m.settings.gaussians = int(scene.gaussian_count);
     m.settings.angle = float(maps::fineness_of(state.parameters.max_error).angle *

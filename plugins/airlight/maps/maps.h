@@ -1,9 +1,8 @@
 // Method `maps`: attenuation maps of the lights (Gautron et al.) and a grid of density along the view's rays.
 #pragma once
-#include <vector>
-
 #include <brume/brume_plugin.h>
 
+#include "maps/frames.h"
 #include "maps/sizes.h"
 #include "scene_maths.hpp"
 
@@ -30,7 +29,7 @@ struct Maps {
     bool maps_pending = false;
     bool grid_pending = false;
     brume::maths_float::ivec2 in_grid{0};  // the lights whose attenuation grid_lights has
-    std::vector<float> frame_texels;
+    maps::Frames placed;
 };
 
 struct MapsOffer {

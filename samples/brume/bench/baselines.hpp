@@ -11,6 +11,7 @@ namespace brume::tool {
 struct BaselineInput {
     Picture image;
     std::vector<float> transmittance;  ///< e^-tau, tau being the mean of the channels' optical depths by luminance
+    double focal = 1;                  ///< distance of the image plane, in heights of a pixel
 };
 
 struct Baseline {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
 
 #include "bench/baselines.hpp"
 #include "bench/pareto.hpp"
@@ -51,11 +54,28 @@ std::vector<float> optical_depths(brume_context context, const SceneText &scene,
     return tau;
 }
 
+/// Half the image's height over the image plane's distance, where the picture or the scene says it; else what one without a
+/// camera is taken to have.
+double half_height(const SceneText &scene, const Sample &sample)
+{
+    if (sample.camera.given & BRUME_CAMERA_FIELD_OF_VIEW)
+        return std::tan(sample.camera.vertical_fov / 2);
+    const auto json = nlohmann::json::parse(scene.text, nullptr, false);
+    const auto camera = json.is_object() ? json.value("camera", nlohmann::json::object()) : nlohmann::json::object();
+    const auto half = [&](const char *key) {
+        const auto found = camera.find(key);
+        return found != camera.end() && found->is_number() ? std::tan(found->get<double>() * std::numbers::pi / 360) : 0;
+    };
+    const double vertical = half("vertical_fov"), horizontal = half("horizontal_fov") * sample.height() / sample.width();
+    return vertical > 0 ? vertical : horizontal > 0 ? horizontal : 0.5;
+}
+
 BaselineInput baseline_input(brume_context context, const SceneText &scene, const Sample &sample)
 {
     std::vector<float> values = optical_depths(context, scene, sample);
     std::transform(values.begin(), values.end(), values.begin(), [](float tau) { return std::exp(-tau); });
-    return {picture_of(sample.color, sample.width(), sample.height(), sample.channels), std::move(values)};
+    return {picture_of(sample.color, sample.width(), sample.height(), sample.channels), std::move(values),
+            0.5 * sample.height() / half_height(scene, sample)};
 }
 
 Errors errors_of(const Sample &sample, const Reference &reference, const Picture &full, const Picture &small)

@@ -6,7 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "run/calibration.hpp"
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 #include "support/error.hpp"
 #include "support/pending_file.hpp"
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/options.hpp"
+#include "run/options.hpp"
 #include "image/depth_window.hpp"
 #include "image/frame.hpp"
 #include "frames/pattern.hpp"

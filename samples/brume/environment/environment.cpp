@@ -5,7 +5,7 @@
 #include "colour/color_manager.hpp"
 #include "environment/harmonics.hpp"
 #include "image/frame.hpp"
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {

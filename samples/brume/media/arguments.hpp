@@ -11,7 +11,7 @@ class App;
 
 #include <brume/brume_media.h>
 
-#include "commands/options.hpp"
+#include "run/options.hpp"
 
 namespace brume::tool {
 

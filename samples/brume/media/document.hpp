@@ -7,7 +7,7 @@
 
 #include <brume/brume_media.h>
 
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 
 namespace brume::tool {
 

@@ -11,7 +11,7 @@
 
 #include "commands/all.hpp"
 #include "pages/manual.hpp"
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 
 namespace brume::tool {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/options.hpp"
+#include "run/options.hpp"
 
 namespace brume::tool {
 

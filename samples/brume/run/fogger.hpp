@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/options.hpp"
+#include "run/options.hpp"
 #include "image/frame.hpp"
 #include "image/resolve.hpp"
 #include "image/write.hpp"
@@ -12,7 +12,7 @@
 #include "run/inputs.hpp"
 #include "run/layers.hpp"
 #include "run/scene.hpp"
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 #include "run/shot.hpp"
 
 namespace brume::tool {

@@ -6,7 +6,7 @@
 
 #include "image/frame.hpp"
 #include "image/resolve_input.hpp"
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 
 namespace CLI {
 class App;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 
 namespace brume::tool {
 

@@ -5,7 +5,7 @@
 
 #include <brume/brume.h>
 
-#include "commands/options.hpp"
+#include "run/options.hpp"
 #include "image/resolve.hpp"
 
 namespace brume::tool {

@@ -14,10 +14,9 @@ namespace {
 
 Case load(const std::string &name, const Json &scene, const fs::path &frame, const std::string &truth, int factor)
 {
-    // Only what the file's own metadata must not override.
-    const std::uint32_t camera = scene.contains("camera") ? BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE : 0;
-    Sample sample = load_sample({frame_in_name(frame), frame, {}}, {}, camera, truth);
-    return {scene_text(name, scene), factor > 1 ? reduced(sample, factor) : sample};
+    const SceneText text = scene_text(name, scene);
+    Sample sample = load_sample({frame_in_name(frame), frame, {}}, {}, CameraBlock::of_scene(text.text, text.name), truth);
+    return {text, factor > 1 ? reduced(sample, factor) : sample};
 }
 
 std::vector<Case> street(const Options &options, const std::string &name, const Json &scene, int factor)
@@ -103,6 +102,9 @@ std::vector<Case> truth_pictures(const Options &options, bool single)
     for (const fs::path &file : files) {
         const std::string name = file.stem();
         const Json description = truth_description(options, name);
+        // Lamps that are listed light surfaces and have shadows, which ask for effects beside the one that is studied.
+        if (!description.contains("emitters"))
+            continue;
         if (single != (description["medium"].value("orders", "") == "single"))
             continue;
         Json scene = scene_of_description(description);

@@ -1,4 +1,4 @@
-#include "run/sdk.hpp"
+#include "support/sdk.hpp"
 
 #include <fmt/format.h>
 

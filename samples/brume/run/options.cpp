@@ -1,4 +1,4 @@
-#include "commands/options.hpp"
+#include "run/options.hpp"
 
 #include <cmath>
 #include <filesystem>

@@ -1,0 +1,31 @@
+// Which directions and distances each light's attenuation map covers.
+#pragma once
+#include <array>
+#include <vector>
+
+#include <brume/brume_plugin.h>
+
+#include "shadow_lists.h"
+
+namespace airlight::maps {
+
+// A window of the octahedral square about an axis: where the light shines and the medium's Gaussians are. Directional lights
+// have the plane of their lists across them.
+struct Frame {
+    std::array<double, 3> u{1, 0, 0}, v{0, 1, 0};  // axes of the world; the square's middle is across both
+    double low[2] = {0, 0}, size[2] = {1, 1};
+    float near = 0, far = 1;  // of directional lights along them, from the camera
+};
+
+class Frames {
+public:
+    // moved: not the camera alone. everywhere: spots' light too, for some of it has been scattered.
+    void place(const brume_plugin_scene &scene, const ShadowLists &lists, bool everywhere, bool moved);
+
+    std::vector<float> texels;  // attenuation_frames of shaders/lib/attenuation.glsl
+
+private:
+    std::vector<Frame> frames_;
+};
+
+}  // namespace airlight::maps
