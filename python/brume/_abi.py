@@ -115,7 +115,8 @@ class brume_scene_info(Structure):
 class brume_image(Structure):
     _fields_ = [("struct_size", c_uint32), ("kind", c_uint32), ("pixel", c_uint32), ("channels", c_uint32),
                 ("width", c_int32), ("height", c_int32), ("origin", c_uint32), ("gl_texture", c_uint32),
-                ("data", c_void_p), ("pixel_stride", c_int64), ("row_stride", c_int64), ("plane_stride", c_int64)]
+                ("data", c_void_p), ("pixel_stride", c_int64), ("row_stride", c_int64), ("plane_stride", c_int64),
+                ("x", c_int32), ("y", c_int32), ("whole_width", c_int32), ("whole_height", c_int32)]
 
 
 class brume_layer(Structure):

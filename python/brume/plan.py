@@ -162,7 +162,8 @@ class Plan(Child):
         """Fogs a frame, and returns it; with `layers` it and a dict of them.
 
         color: linear radiance, of shape (height, width, 1 to 4) or (height, width): grey, grey and premultiplied alpha, RGB, RGBA.
-        depth: distances in scene units, of shape (height, width).
+        depth: distances in scene units, of shape (height, width), or larger or smaller by one factor, such as half of it: each pixel
+            takes the depth in which its centre lies.
         output: the array to write to, of color's channels; color itself is possible. None: a new one like color.
         inputs: arrays by the names that the plan has, by (name, number) where there is one for each light.
         layers: the layers wanted, or a dict of arrays to write them to. New ones are float32, (height, width, 3) or (height, width).
@@ -177,7 +178,6 @@ class Plan(Child):
         color_image, color_array = input_image(color, "color", (1, 2, 3, 4))
         depth_image, depth_array = input_image(depth, "depth", (1,))
         check_size(color_array, "color", self._size, "the plan")
-        check_size(depth_array, "depth", self._size, "the plan")
         if output is None:
             output = np.empty(np.shape(color), color_array.dtype)
         output_struct, output_array = output_image(output, "output", (1, 2, 3, 4))

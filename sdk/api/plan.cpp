@@ -7,6 +7,7 @@
 
 #include "api/handles.h"
 #include "api/structs.h"
+#include "base/pixels.h"
 #include "effects/effects.h"
 #include "plan/quality.h"
 
@@ -92,13 +93,35 @@ Format read_format(const brume_format *given)
     return format;
 }
 
+namespace {
+
+// What is all of its whole is no part, and is not copied as one.
+void check_part(brume_image &image, const char *name)
+{
+    const bool whole = image.whole_width == 0 && image.whole_height == 0;
+    auto within = [](int64_t first, int64_t count, int64_t all) {
+        return all <= 65536 && first >= 0 && count >= 1 && first + count <= all;
+    };
+    if (whole ? image.x != 0 || image.y != 0
+              : !within(image.x, image.width, image.whole_width) || !within(image.y, image.height, image.whole_height))
+        throw Error(
+            BRUME_ERROR_ARGUMENT,
+            fmt::format("{}: {} x {} at ({}, {}) of whole_width x whole_height {} x {}; expected {}", name, image.width,
+                        image.height, image.x, image.y, image.whole_width, image.whole_height,
+                        whole ? "the size of what it is a part of" : "a part that lies within, of at most 65536 a side"));
+    if (image.width == image.whole_width && image.height == image.whole_height)
+        image = whole_of(image);
+}
+
+}  // namespace
+
 brume_image read_image(const brume_image *given, const char *name)
 {
     brume_image image = BRUME_IMAGE_INIT;
-    image =
-        read_struct(given, image, name, &brume_image::kind, &brume_image::pixel, &brume_image::channels, &brume_image::width,
-                    &brume_image::height, &brume_image::origin, &brume_image::gl_texture, &brume_image::data,
-                    &brume_image::pixel_stride, &brume_image::row_stride, &brume_image::plane_stride);
+    image = read_struct(given, image, name, &brume_image::kind, &brume_image::pixel, &brume_image::channels,
+                        &brume_image::width, &brume_image::height, &brume_image::origin, &brume_image::gl_texture,
+                        &brume_image::data, &brume_image::pixel_stride, &brume_image::row_stride, &brume_image::plane_stride,
+                        &brume_image::x, &brume_image::y, &brume_image::whole_width, &brume_image::whole_height);
     auto check = [&](bool good, const char *field, auto value, const char *expected) {
         if (!good)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.{}: {}; expected {}", name, field, value, expected));
@@ -107,6 +130,7 @@ brume_image read_image(const brume_image *given, const char *name)
     check(image.pixel <= BRUME_PIXEL_F16, "pixel", image.pixel, "a BRUME_PIXEL_...");
     check(image.channels >= 1 && image.channels <= 4, "channels", image.channels, "1 to 4");
     check(image.origin <= BRUME_ORIGIN_BOTTOM_LEFT, "origin", image.origin, "a BRUME_ORIGIN_...");
+    check_part(image, name);
     if (image.kind != BRUME_IMAGE_HOST) {
         check(image.gl_texture != 0, "gl_texture", 0, "the name of a texture");
         return image;
@@ -121,7 +145,8 @@ brume_image read_image(const brume_image *given, const char *name)
     check(within(image.plane_stride, int64_t(1) << 50), "plane_stride", image.plane_stride, "at most 1 PiB");
     // Whatever lies farther apart must step over all that lies closer together: rows may interleave with the pixels of
     // others (a transposed image) and planes with rows; only overlap is refused.
-    const int64_t width = std::clamp(image.width, 1, 65536), height = std::clamp(image.height, 1, 65536);
+    const brume_image whole = whole_of(image);
+    const int64_t width = std::clamp(whole.width, 1, 65536), height = std::clamp(whole.height, 1, 65536);
     struct Step {
         int64_t bytes, count;
         const char *name;

@@ -10,6 +10,23 @@
 
 namespace brume {
 
+inline bool is_part(const brume_image &image)
+{
+    return image.whole_width != 0;
+}
+
+// What the image is a part of, or it itself.
+inline brume_image whole_of(const brume_image &image)
+{
+    brume_image whole = image;
+    if (is_part(image)) {
+        whole.width = image.whole_width;
+        whole.height = image.whole_height;
+        whole.x = whole.y = whole.whole_width = whole.whole_height = 0;
+    }
+    return whole;
+}
+
 // The caller's host image with its strides resolved.
 struct HostPixels {
     explicit HostPixels(const brume_image &image)
@@ -17,9 +34,10 @@ struct HostPixels {
           sample_size(image.pixel == BRUME_PIXEL_F16 ? 2 : 4),
           channel_stride(image.plane_stride ? image.plane_stride : sample_size),
           pixel_stride(image.pixel_stride ? image.pixel_stride : int64_t(sample_size) * (image.plane_stride ? 1 : channels)),
-          row_stride(image.row_stride ? image.row_stride : pixel_stride * image.width), width(image.width),
+          row_stride(image.row_stride ? image.row_stride : pixel_stride * whole_of(image).width), width(image.width),
           height(image.height)
     {
+        data = at(image.x, image.y);
     }
 
     unsigned char *at(int x, int y, int channel = 0) const
@@ -110,6 +128,12 @@ inline int64_t store_row_rgba(const float *from, const HostPixels &to, int y)
             saturated += store_sample(p + c * to.channel_stride, to.pixel, from[c]);
     }
     return saturated;
+}
+
+// Of `from` pixels side by side, the one in which the centre of pixel x of `to` lies.
+inline int32_t nearest_pixel(int32_t x, int32_t to, int32_t from)
+{
+    return int32_t((2 * int64_t(x) + 1) * from / (2 * int64_t(to)));
 }
 
 inline void load_row_scalar(const HostPixels &from, int y, float *to)

@@ -168,6 +168,21 @@ public:
         return to;
     }
 
+    std::shared_ptr<Image> import_depth(const brume_image &image, int32_t width, int32_t height) override
+    {
+        if (image.width == width && image.height == height)
+            return import(image, 1);
+        HostPixels host(image);
+        auto to = pool_->take(width, height, 1);
+        for_rows(height, [&](int y) {
+            const int32_t from = nearest_pixel(y, height, host.height);
+            for (int32_t x = 0; x < width; ++x)
+                to->data[y * to->row_stride + x] =
+                    load_sample(host.at(nearest_pixel(x, width, host.width), from), host.pixel);
+        });
+        return to;
+    }
+
     std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) override
     {
         HostPixels host(image);

@@ -1,6 +1,7 @@
 #include "gl/convert.h"
 
 #include <cstddef>
+#include <iterator>
 
 namespace brume::gl {
 namespace {
@@ -13,6 +14,9 @@ uniform sampler2D source;
 writeonly uniform image2D target;
 uniform bool spread;
 uniform int rounding;
+uniform ivec2 source_first;
+uniform ivec2 source_size;
+uniform ivec2 target_first;
 
 // The nearest float of 5 exponent bits and as many mantissa bits, ties to even; by bits, since drivers are free in how their
 // stores round. What is finite stays finite: it saturates, as on the CPU.
@@ -47,7 +51,9 @@ void main()
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, brume_grid)))
         return;
-    vec4 value = texelFetch(source, at, 0);
+    // As nearest_pixel() in pixels.h; unsigned because sides of 32768 need that bit.
+    uvec2 nearest_pixel = (2u * uvec2(at) + 1u) * uvec2(source_size) / (2u * uvec2(brume_grid));
+    vec4 value = texelFetch(source, source_first + ivec2(nearest_pixel), 0);
     if (spread)
         value = vec4(value.xxx, 1.0);
     if (rounding == 1)
@@ -57,27 +63,31 @@ void main()
     else if (rounding == 3)
         value = vec4(nearest_normalised(value.x, 1023.0), nearest_normalised(value.y, 1023.0),
                      nearest_normalised(value.z, 1023.0), nearest_normalised(value.w, 3.0));
-    imageStore(target, at, value);
+    imageStore(target, target_first + at, value);
 }
 )";
 
 struct Constants {
     int32_t spread, rounding;
+    int32_t source_first[2], source_size[2], target_first[2];
 };
 
 PassLayout layout()
 {
     static constexpr brume_slot slots[] = {{"source", BRUME_ACCESS_FETCH, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
-    static constexpr brume_constant constants[] = {// GLSL's bool is set by an integer.
-                                                   {"spread", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, spread)},
-                                                   {"rounding", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, rounding)}};
+    static constexpr brume_constant constants[] = {
+        {"spread", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, spread)},  // GLSL's bool is set by an integer
+        {"rounding", BRUME_CONSTANT_INT, 1, 1, offsetof(Constants, rounding)},
+        {"source_first", BRUME_CONSTANT_INT, 2, 1, offsetof(Constants, source_first)},
+        {"source_size", BRUME_CONSTANT_INT, 2, 1, offsetof(Constants, source_size)},
+        {"target_first", BRUME_CONSTANT_INT, 2, 1, offsetof(Constants, target_first)}};
     brume_pass_desc desc{};
     desc.struct_size = sizeof desc;
     desc.name = "convert";
     desc.slots = slots;
     desc.slot_count = 2;
     desc.constants = constants;
-    desc.constant_count = 2;
+    desc.constant_count = uint32_t(std::size(constants));
     desc.constant_size = sizeof(Constants);
     return layout_of(desc);
 }
@@ -106,22 +116,28 @@ Converter::Converter(std::shared_ptr<Disposal> disposal)
 {
 }
 
-void Converter::convert(const GlImage &from, const GlImage &to, const Samplers &samplers, StateGuard &guard)
+void Converter::convert(const GlImage &from, const Rectangle &source, const GlImage &to, const Rectangle &target,
+                        const Samplers &samplers, StateGuard &guard)
 {
-    run(from, to, rounding_for(to.format), samplers, guard);
+    run(from, source, to, target, rounding_for(to.format), samplers, guard);
 }
 
 void Converter::store(const GlImage &from, const GlImage &to, const Samplers &samplers, StateGuard &guard)
 {
-    run(from, to, none, samplers, guard);
+    run(from, all_of(from), to, all_of(to), none, samplers, guard);
 }
 
-void Converter::run(const GlImage &from, const GlImage &to, int32_t rounding, const Samplers &samplers, StateGuard &guard)
+void Converter::run(const GlImage &from, const Rectangle &source, const GlImage &to, const Rectangle &target,
+                    int32_t rounding, const Samplers &samplers, StateGuard &guard)
 {
     // Slots are not const because other passes write through them; this one reads `from`.
     const brume_plugin_image images[] = {const_cast<GlImage *>(&from), const_cast<GlImage *>(&to)};
-    const Constants constants{from.channels == 1 && to.channels == 4, rounding};
-    pass_.run(images, &constants, to.width, to.height, brume_plugin_scene{}, samplers, guard);
+    const Constants constants{from.channels == 1 && to.channels == 4,
+                              rounding,
+                              {source.x, source.y},
+                              {source.width, source.height},
+                              {target.x, target.y}};
+    pass_.run(images, &constants, target.width, target.height, brume_plugin_scene{}, samplers, guard);
 }
 
 }  // namespace brume::gl

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/half.h"
+#include "base/pixels.h"
 #include "gl/convert.h"
 #include "gl/device.h"
 #include "gl/gl_backend.h"
@@ -28,6 +29,11 @@ uint32_t pixel_of(GLenum format)
 bool is_texture(const brume_image &image)
 {
     return image.kind != BRUME_IMAGE_HOST;
+}
+
+Rectangle rectangle_of(const brume_image &image)
+{
+    return {image.x, image.y, image.width, image.height};
 }
 
 const char *name_of(int32_t channels)
@@ -55,6 +61,7 @@ public:
     void check(const brume_image &image, const char *what, bool writable) override;
     uint32_t pixel(const brume_image &image) override;
     std::shared_ptr<Image> import(const brume_image &image, int32_t channels) override;
+    std::shared_ptr<Image> import_depth(const brume_image &image, int32_t width, int32_t height) override;
     std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) override;
     int64_t finish_output(const brume_image &image, Image &written) override;
     int64_t copy(const brume_image &from, const brume_image &to) override;
@@ -67,7 +74,10 @@ public:
 private:
     HostTexture look_at(const brume_image &image, const std::string &what);
     bool stores_round_to_nearest();
-    void bring(const GlImage &from, const GlImage &to);
+    std::shared_ptr<GlImage> readable(const brume_image &image, int32_t channels);
+    std::shared_ptr<GlImage> uploaded(const brume_image &image, int32_t channels);
+    void bring(const GlImage &from, const Rectangle &source, const GlImage &to, const Rectangle &target);
+    int64_t clamped(const brume_image &written);
 
     const Log log_;
     Device device_;
@@ -183,20 +193,47 @@ uint32_t GlBackend::pixel(const brume_image &image)
     return is_texture(image) ? pixel_of(look_at(image, "output").format) : image.pixel;
 }
 
+// A texture of the host's as it is, of which the image may be a part.
+std::shared_ptr<GlImage> GlBackend::readable(const brume_image &image, int32_t channels)
+{
+    const HostTexture texture = look_at(image, name_of(channels));
+    require_readable(texture, channels, name_of(channels));
+    auto wrapped = wrap(texture);
+    if (image.kind == BRUME_IMAGE_GL_TEXTURE_TRUSTED)
+        wrapped->format = GL_NONE;  // the host says what outputs are only
+    return wrapped;
+}
+
+std::shared_ptr<GlImage> GlBackend::uploaded(const brume_image &image, int32_t channels)
+{
+    auto to = pool_->take(image.width, image.height, channels, image.pixel);
+    upload(image, *to, device_.guard());
+    return to;
+}
+
+// Passes know no rectangles: what is a part of a texture they see as a copy.
 std::shared_ptr<Image> GlBackend::import(const brume_image &image, int32_t channels)
 {
+    device_.guard();
+    if (!is_texture(image))
+        return uploaded(image, channels);
+    auto texture = readable(image, channels);
+    if (!is_part(image))
+        return texture;
+    auto part = pool_->take(image.width, image.height, channels, pixel_of(texture->format));
+    bring(*texture, rectangle_of(image), *part, all_of(*part));
+    return part;
+}
+
+std::shared_ptr<Image> GlBackend::import_depth(const brume_image &image, int32_t width, int32_t height)
+{
+    if (image.width == width && image.height == height)
+        return import(image, 1);
     StateGuard &guard = device_.guard();
-    if (is_texture(image)) {
-        const HostTexture texture = look_at(image, name_of(channels));
-        require_readable(texture, channels, name_of(channels));
-        auto wrapped = wrap(texture);
-        if (image.kind == BRUME_IMAGE_GL_TEXTURE_TRUSTED)
-            wrapped->format = GL_NONE;  // the host says what outputs are only
-        return wrapped;
-    }
-    auto imported = pool_->take(image.width, image.height, channels, image.pixel);
-    upload(image, *imported, guard);
-    return imported;
+    const auto from = is_texture(image) ? readable(image, 1) : uploaded(image, 1);
+    auto to = pool_->take(width, height, 1, BRUME_PIXEL_F32);
+    converter_->convert(*from, is_texture(image) ? rectangle_of(image) : all_of(*from), *to, all_of(*to), samplers_, guard);
+    return to;
 }
 
 // Passes that write a caller's half texture leave the conversion to the driver's stores, if those round to nearest even as
@@ -209,7 +246,7 @@ std::shared_ptr<Image> GlBackend::begin_output(const brume_image &image, int32_t
         require_writable(texture, channels, "output");
         auto wrapped = wrap(texture);
         const uint32_t pixel = pixel_of(texture.format);
-        if (direct && wrapped->channels == channels && !is_packed(texture.format) &&
+        if (direct && !is_part(image) && wrapped->channels == channels && !is_packed(texture.format) &&
             (pixel == BRUME_PIXEL_F32 || direct_half_stores_))
             return wrapped;
     }
@@ -223,31 +260,39 @@ int64_t GlBackend::finish_output(const brume_image &image, Image &written)
     const auto &from = static_cast<const GlImage &>(written);
     if (is_texture(image)) {
         if (from.texture != image.gl_texture)
-            bring(from, *wrap(look_at(image, "output")));
+            bring(from, all_of(from), *wrap(look_at(image, "output")), rectangle_of(image));
     } else if (from.format == image_format(from.channels, image.pixel)) {
         download(from, image, guard);
     } else {
         auto converted = pool_->take(from.width, from.height, from.channels, image.pixel);
-        converter_->convert(from, *converted, samplers_, guard);
+        converter_->convert(from, all_of(from), *converted, all_of(*converted), samplers_, guard);
         download(*converted, image, guard);
     }
-    const bool clamps = is_texture(image) && is_packed(look_at(image, "output").format);
-    return clamps || pixel(image) == BRUME_PIXEL_F16 ? not_counted : 0;
+    return clamped(image);
+}
+
+int64_t GlBackend::clamped(const brume_image &written)
+{
+    const bool clamps = is_texture(written) && is_packed(look_at(written, "output").format);
+    return clamps || pixel(written) == BRUME_PIXEL_F16 ? not_counted : 0;
 }
 
 int64_t GlBackend::copy(const brume_image &from, const brume_image &to)
 {
-    const auto source = import(from, 4);
-    return finish_output(to, *source);
+    device_.guard();
+    if (!is_texture(from) || !is_texture(to))
+        return finish_output(to, *import(from, 4));
+    bring(*readable(from, 4), rectangle_of(from), *wrap(look_at(to, "output")), rectangle_of(to));
+    return clamped(to);
 }
 
-void GlBackend::bring(const GlImage &from, const GlImage &to)
+void GlBackend::bring(const GlImage &from, const Rectangle &source, const GlImage &to, const Rectangle &target)
 {
     if (from.format == to.format)
-        glCopyImageSubData(from.texture, GL_TEXTURE_2D, 0, 0, 0, 0, to.texture, GL_TEXTURE_2D, 0, 0, 0, 0, from.width,
-                           from.height, 1);
+        glCopyImageSubData(from.texture, GL_TEXTURE_2D, 0, source.x, source.y, 0, to.texture, GL_TEXTURE_2D, 0, target.x,
+                           target.y, 0, source.width, source.height, 1);
     else
-        converter_->convert(from, to, samplers_, device_.guard());
+        converter_->convert(from, source, to, target, samplers_, device_.guard());
 }
 
 void GlBackend::trim()

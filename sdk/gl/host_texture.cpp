@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/image_memory.h"
 #include "base/recycling_allocator.h"
 #include "gl/debug_group.h"
 #include "gl/error.h"
@@ -201,15 +202,17 @@ HostTexture trusted(const brume_image &image, const std::string &what)
     if (!scalar && !color)
         refuse(BRUME_ERROR_ARGUMENT, what, image.gl_texture,
                "is trusted with " + std::to_string(image.channels) + " channels; expected 1, 3 or 4");
-    return {image.gl_texture, image.width, image.height, image_format(scalar ? 1 : 4, image.pixel), color, scalar};
+    const brume_image whole = whole_of(image);
+    return {image.gl_texture, whole.width, whole.height, image_format(scalar ? 1 : 4, image.pixel), color, scalar};
 }
 
 void require_size(const HostTexture &texture, const brume_image &image, const std::string &what)
 {
-    if (texture.width != image.width || texture.height != image.height)
+    const brume_image whole = whole_of(image);
+    if (texture.width != whole.width || texture.height != whole.height)
         refuse(BRUME_ERROR_ARGUMENT, what, texture.name,
                "is " + std::to_string(texture.width) + " x " + std::to_string(texture.height) + "; the image says " +
-                   std::to_string(image.width) + " x " + std::to_string(image.height));
+                   extent_text(image) + (is_part(image) ? "" : ", and no whole_width x whole_height that it is a part of"));
 }
 
 void require_readable(const HostTexture &texture, int32_t channels, const std::string &what)

@@ -77,6 +77,8 @@ public:
     // The caller's image for reading: RGBA (grey is spread over RGB, alpha is 1 where there is none) or, for channels 1,
     // its first channel.
     virtual std::shared_ptr<Image> import(const brume_image &image, int32_t channels) = 0;
+    // Its first channel at another size: each pixel is the one in which its centre lies (nearest_pixel()).
+    virtual std::shared_ptr<Image> import_depth(const brume_image &image, int32_t width, int32_t height) = 0;
     // An image to write whose content finish() brings to the caller's. direct: the caller's own may be handed out (it is
     // no input of this frame).
     virtual std::shared_ptr<Image> begin_output(const brume_image &image, int32_t channels, bool direct) = 0;

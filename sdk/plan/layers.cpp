@@ -138,19 +138,24 @@ void FrameLayers::check(const brume_frame &frame, size_t lights) const
             const bool scalar = planned->channels == 1;
             if (layer.image->channels < (scalar ? 1u : 3u) || layer.image->channels > (scalar ? 1u : 4u))
                 refuse(fmt::format("{} channels; expected {}", layer.image->channels, scalar ? "1" : "3 or 4"));
-            bool shared = same_memory(*layer.image, *frame.color) || same_memory(*layer.image, *frame.output) ||
-                          (frame.depth && same_memory(*layer.image, *frame.depth));
+            auto expect_apart = [&](const brume_image &other, const char *name) {
+                if (same_memory(*layer.image, other))
+                    refuse(fmt::format("shares memory with {}{}", name, extents_text("it", *layer.image, name, other)));
+            };
+            expect_apart(*frame.color, "color");
+            expect_apart(*frame.output, "output");
+            if (frame.depth)
+                expect_apart(*frame.depth, "depth");
             for (uint32_t k = 0; k < i; ++k)
-                shared = shared || same_memory(*layer.image, *given[k].image);
+                expect_apart(*given[k].image, given[k].name);
             for (uint32_t k = 0; k < frame.input_count; ++k)
-                shared = shared || same_memory(*layer.image, *frame.inputs[k].image);
-            if (shared)
-                refuse("shares memory with another image of the frame");
+                expect_apart(*frame.inputs[k].image, frame.inputs[k].name);
         }
         for (uint32_t i = 0; list == 0 && i < count; ++i)
             if (same_memory(*given[i].image, *frame.output))
                 throw Error(BRUME_ERROR_ARGUMENT,
-                            fmt::format("inputs[{}] ({}): shares memory with output", i, given[i].name));
+                            fmt::format("inputs[{}] ({}): shares memory with output{}", i, given[i].name,
+                                        extents_text("it", *given[i].image, "output", *frame.output)));
     }
     for (const FormatLayer &planned : layers_) {
         if (!(planned.flags & BRUME_LAYER_INPUT) || planned.flags & BRUME_LAYER_OF_LIGHT)

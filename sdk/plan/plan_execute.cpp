@@ -12,25 +12,59 @@
 
 using namespace brume;
 
+namespace {
+
+constexpr int64_t most_scale = 16;  // of depth, to larger or smaller; as brume.h says
+
+// Whether depth shows the picture of a format: there is one factor for both sides of which rounding, up or down, makes its
+// own. What is a pixel off is more likely a mistake than a factor.
+bool is_scaled(const brume_image &depth, const Format &format)
+{
+    const int64_t width = format.width, height = format.height;
+    if (depth.width == width && depth.height == height)
+        return true;
+    auto in_range = [](int64_t a, int64_t b) { return a <= most_scale * b && b <= most_scale * a; };
+    return in_range(depth.width, width) && in_range(depth.height, height) &&
+           (std::abs(depth.width - width) > 1 || std::abs(depth.height - height) > 1) &&
+           (depth.width - 1) * height < (depth.height + 1) * width &&
+           (depth.height - 1) * width < (depth.width + 1) * height;
+}
+
+enum class Sizes { format, scaled, any };
+
+}  // namespace
+
 void brume_host_t::check_frame(const brume_frame &frame) const
 {
     auto check = [&](const brume_image *image, const char *what, bool writable, uint32_t most_channels,
-                     bool any_size = false) {
+                     Sizes sizes = Sizes::format) {
         if (!image)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: NULL", what));
         const int32_t largest = context_->backend->largest_size();
-        if (any_size && (image->width < 1 || image->height < 1 || image->width > largest || image->height > largest))
+        if (sizes != Sizes::format &&
+            (image->width < 1 || image->height < 1 || image->width > largest || image->height > largest))
             throw Error(BRUME_ERROR_FORMAT,
-                        fmt::format("{}: {} x {}; expected sides from 1 to {}", what, image->width, image->height, largest));
-        if (!any_size && (image->width != format_.width || image->height != format_.height))
-            throw Error(BRUME_ERROR_FORMAT, fmt::format("{}: {} x {}; the plan was made for {} x {}", what, image->width,
-                                                        image->height, format_.width, format_.height));
+                        fmt::format("{}: {}; expected sides from 1 to {}", what, extent_text(*image), largest));
+        if (sizes == Sizes::format && (image->width != format_.width || image->height != format_.height))
+            throw Error(BRUME_ERROR_FORMAT, fmt::format("{}: {}; the plan was made for {} x {}", what, extent_text(*image),
+                                                        format_.width, format_.height));
+        if (sizes == Sizes::scaled && !is_scaled(*image, format_))
+            throw Error(BRUME_ERROR_FORMAT,
+                        fmt::format("{}: {}; the plan was made for {} x {}; expected that size, or both sides larger or "
+                                    "smaller by one factor, at most {}",
+                                    what, extent_text(*image), format_.width, format_.height, most_scale));
         if (image->channels > most_channels)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.channels: {}; expected 1{}", what, image->channels,
                                                           most_channels > 1 ? " to 4" : ""));
         if (image->origin != frame.color->origin)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.origin: differs from color.origin", what));
-        context_->backend->check(*image, what, writable);
+        try {
+            context_->backend->check(*image, what, writable);
+        } catch (const Error &error) {
+            if (!is_part(*image))
+                throw;
+            throw Error(error.status(), fmt::format("{} (the image is {})", error.what(), extent_text(*image)));
+        }
     };
     check(frame.color, "color", false, 4);
     check(frame.output, "output", true, 4);
@@ -38,15 +72,16 @@ void brume_host_t::check_frame(const brume_frame &frame) const
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("output.channels: {}; expected those of color, {}",
                                                       frame.output->channels, frame.color->channels));
     if (!does_nothing())
-        check(frame.depth, "depth", false, 1);
+        check(frame.depth, "depth", false, 1, Sizes::scaled);
     layers_.check(frame, scene_.lights.size());
     for (uint32_t i = 0; i < frame.input_count; ++i)
-        check(frame.inputs[i].image, frame.inputs[i].name, false, 4, layers_.has_any_size(frame.inputs[i].name));
+        check(frame.inputs[i].image, frame.inputs[i].name, false, 4,
+              layers_.has_any_size(frame.inputs[i].name) ? Sizes::any : Sizes::format);
     for (uint32_t i = 0; i < frame.output_count; ++i)
         check(frame.outputs[i].image, frame.outputs[i].name, true, 4);
-    if (same_memory(*frame.color, *frame.output) && frame.color->kind == BRUME_IMAGE_HOST &&
-        !same_layout(*frame.color, *frame.output))
-        throw Error(BRUME_ERROR_ARGUMENT, "output: overlaps color; expected the very same image or none of its memory");
+    if (same_memory(*frame.color, *frame.output) && !same_image(*frame.color, *frame.output))
+        throw Error(BRUME_ERROR_ARGUMENT, "output: overlaps color; expected the very same image or none of its memory" +
+                                              extents_text("output", *frame.output, "color", *frame.color));
 }
 
 void brume_host_t::execute(const brume_frame &frame)
@@ -90,7 +125,7 @@ int64_t brume_host_t::run_effects(const brume_frame &frame)
     Backend &backend = *context_->backend;
     bool in_place = same_memory(*frame.color, *frame.output) || same_memory(*frame.depth, *frame.output);
     auto color = backend.import(*frame.color, 4);
-    auto depth = backend.import(*frame.depth, 1);
+    auto depth = backend.import_depth(*frame.depth, format_.width, format_.height);
     auto output = backend.begin_output(*frame.output, 4, !in_place);
     layers_.begin(frame, scene_.lights.size(), backend);
 

@@ -219,8 +219,10 @@ PURE Airlight lamp_orders(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetti
         }
         if (range.x >= range.y)
             continue;
-        Path path = sun && part == part_terms ? terms_path(medium, light, aspect, range, terms.z)
-                                              : bell_path(middle, width, range.x, range.y);
+        // About a distant foot, floats keep of a short range little or nothing: in dense media, or before near surfaces.
+        float away = max(aspect.height, max(range.x - aspect.foot, aspect.foot - range.y));
+        bool fades = part == part_terms && (sun || away > R(100.0) * (range.y - range.x));
+        Path path = fades ? terms_path(medium, light, aspect, range, terms.z) : bell_path(middle, width, range.x, range.y);
         int left = settings.panels;
         float z = R(0.0);
         float dz = R(1.0);

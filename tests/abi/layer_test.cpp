@@ -135,7 +135,7 @@ TEST_P(Layers, FramesBringWhatTheFormatNames)
     refused({}, {layer("optical_depth", &output_image)}, BRUME_ERROR_ARGUMENT,
             "inputs[0] (optical_depth): shares memory with output");
     refused({layer("transmittance", &tau_image)}, good, BRUME_ERROR_ARGUMENT,
-            "outputs[0] (transmittance): shares memory with another image");
+            "outputs[0] (transmittance): shares memory with optical_depth");
     refused({layer("transmittance", &straight_image), layer("transmittance", &straight_image)}, good, BRUME_ERROR_ARGUMENT,
             "outputs[1] (transmittance): given twice");
 

@@ -180,7 +180,7 @@ FIELD(brume_plan_entry, operations, 40, 8);
 FIELD(brume_plan_entry, predicted_ms, 48, 8);
 FIELD(brume_plan_entry, measured_ms, 56, 8);
 
-SIZE(brume_image, 64);
+SIZE(brume_image, 80);
 FIELD(brume_image, struct_size, 0, 4);
 FIELD(brume_image, kind, 4, 4);
 FIELD(brume_image, pixel, 8, 4);
@@ -193,6 +193,10 @@ FIELD(brume_image, data, 32, 8);
 FIELD(brume_image, pixel_stride, 40, 8);
 FIELD(brume_image, row_stride, 48, 8);
 FIELD(brume_image, plane_stride, 56, 8);
+FIELD(brume_image, x, 64, 4);
+FIELD(brume_image, y, 68, 4);
+FIELD(brume_image, whole_width, 72, 4);
+FIELD(brume_image, whole_height, 76, 4);
 
 SIZE(brume_layer, 32);
 FIELD(brume_layer, struct_size, 0, 4);

@@ -47,9 +47,8 @@ std::vector<Column> columns()
         {{"separation", true}, {"kernel_size", "6x6"}, {"fetch", "cubic_bicubic"}, {"placement", true}});
     all[5].effects["multiscatter"].update({{"resolution", "quarter"}, {"lobes", "third"}});
     all[7].effects["airlight"]["resolution"] = "quarter";
-    // Scattered once: of light that scatters again both backends know too little in media of 1e4 / m (docs/airlight.md).
     all[11].effects.update(airlight("nodes"));
-    all[11].effects["airlight"]["orders"] = "single";
+    all[11].effects["airlight"]["orders"] = "all";
     return all;
 }
 

@@ -447,10 +447,10 @@ BRUME_API brume_status brume_scene_get_info(brume_scene scene, brume_scene_info 
 #define BRUME_IMAGE_HOST 0u       /* data, row_stride, pixel_stride */
 #define BRUME_IMAGE_GL_TEXTURE 1u /* gl_texture; borrowed contexts only. Each frame asks OpenGL what the texture is */
 #define BRUME_IMAGE_GL_TEXTURE_TRUSTED 2u
-/* The same, but OpenGL is asked nothing: the texture is as gl_texture below wants it, of width x height pixels, without
-   swizzle and with base level 0. For colour, channels is 3 or 4. An output is exactly RGBA32F or RGBA16F, or with channels 1
-   R32F or R16F, as `pixel` says. Where that is not so, the call fails with BRUME_ERROR_GL or
-   the picture is undefined. */
+/* The same, but OpenGL is asked nothing: the texture is as gl_texture below wants it, of width x height pixels (of which the image
+   is a part: whole_width x whole_height), without swizzle and with base level 0. For colour, channels is 3 or 4. An output is
+   exactly RGBA32F or RGBA16F, or with channels 1 R32F or R16F, as `pixel` says. Where that is not so, the call fails with
+   BRUME_ERROR_GL or the picture is undefined. */
 
 #define BRUME_PIXEL_F32 0u
 #define BRUME_PIXEL_F16 1u
@@ -475,8 +475,12 @@ typedef struct brume_image {
   int64_t row_stride;    /* [bytes], may be negative; 0 (default): packed */
   int64_t plane_stride;  /* [bytes] from a channel to the next, may be negative; 0 (default): side by side in the pixel. Else
                             packed means that the samples of a channel are side by side. */
+  int32_t x;             /* Images that are a part of a larger texture, or of a larger image in memory, which `data` and the */
+  int32_t y;             /* strides then describe: column and row of the part's first pixel, rows counted as they are stored */
+  int32_t whole_width;   /* whatever `origin` says, and the size of the whole; 0 (default): the image is all there is. What is */
+  int32_t whole_height;  /* around the part is neither read nor written. OpenGL copies parts once a frame, wholes it does not. */
 } brume_image;
-#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0, 0}
+#define BRUME_IMAGE_INIT {(uint32_t)sizeof(brume_image), 0u, 0u, 4u, 0, 0, 0u, 0u, NULL, 0, 0, 0, 0, 0, 0, 0}
 BRUME_API void brume_image_init(brume_image *image, size_t size);
 
 /* A picture beside colour and depth, by the name of what it holds. Effects say which they read and fill
@@ -598,7 +602,11 @@ BRUME_API brume_status brume_plan_get_entry(brume_plan plan, uint32_t index, bru
 /* Colour is linear radiance; with alpha it is premultiplied: RGB is treated as the radiance it is, and alpha comes back
    unchanged. A component that is not finite comes back unchanged too and gives no light to others. Half outputs are
    clamped to +-65504 (brume_plan_info counts how many). `output` may be the very image `color` is (in place), with the
-   same layout; partial overlap is not allowed. Images may be different channels of the same pixels in memory.
+   same layout; partial overlap is not allowed. Images may be different channels of the same pixels in memory, and parts of
+   one texture or of one image in memory that have no pixel in common.
+   Depth may have another size than the plan's, from frame to frame, where it shows the same picture: sides larger or smaller by one
+   factor, 1/16 to 16, and then rounded, up or down, by more than a pixel. Each pixel takes the depth pixel in which its centre lies,
+   by shares of width and height: column floor((x + 1/2) depth width / width), rows likewise, and no depths are mixed.
    Host memory: returns when the output is complete. GL textures: the work is enqueued in the current context, nothing
    waits; the caller orders its own reads after it as after any GL write (a memory barrier for all uses is issued). */
 typedef struct brume_frame {

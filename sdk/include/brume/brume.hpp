@@ -370,6 +370,20 @@ inline brume_image texture(std::uint32_t name, std::int32_t width, std::int32_t 
     return image;
 }
 
+// The part of an image from column x and row y on, rows counted as they are stored.
+inline brume_image part(brume_image image, std::int32_t x, std::int32_t y, std::int32_t width, std::int32_t height)
+{
+    if (image.whole_width == 0) {
+        image.whole_width = image.width;
+        image.whole_height = image.height;
+    }
+    image.x += x;
+    image.y += y;
+    image.width = width;
+    image.height = height;
+    return image;
+}
+
 #ifdef BRUME_HPP_NO_EXCEPTIONS
 }  // namespace no_exceptions
 #endif
