@@ -124,6 +124,20 @@ brume_image part_of(GLuint name, uint32_t channels, const Place &place)
     return brume::part(whole(name, channels, place.width, place.height), place.x, place.y, width, height);
 }
 
+// Drivers differ in the last place of what 24 bits of depth are as floats, by the way that they are read.
+double rounding_of(const Format &format)
+{
+    return std::string(format.text) == "DEPTH_COMPONENT24" ? 1e-5 : 0;
+}
+
+void expect_near(const std::vector<float> &got, const std::vector<float> &expected, double relative, const std::string &what)
+{
+    ASSERT_EQ(got.size(), expected.size());
+    for (size_t i = 0; i < got.size(); ++i)
+        ASSERT_LE(std::abs(double(got[i]) - expected[i]), relative * std::abs(expected[i]))
+            << what << ": value " << i << " is " << got[i] << ", expected " << expected[i];
+}
+
 void expect_same_bits(const std::vector<float> &got, const std::vector<float> &expected, const std::string &what)
 {
     ASSERT_EQ(got.size(), expected.size());
@@ -198,7 +212,7 @@ TEST_F(TextureParts, DepthOfAnyFormat)
                 plan.execute(from, whole(filled(depth_formats[0], width, height, read(format, z, place)), 1),
                              whole(expected, 4));
                 plan.execute(from, part_of(z, 1, place), whole(to, 4));
-                expect_same_bits(read(out, to, {}), read(out, expected, {}), what);
+                expect_near(read(out, to, {}), read(out, expected, {}), rounding_of(format), what);
                 EXPECT_TRUE(is_untouched_around(format, z, place, around)) << what;
             }
 }
@@ -321,8 +335,8 @@ TEST_F(TextureParts, DepthOfAnotherSizeIsNearest)
             plan.execute(from, whole(filled(depth_formats[0], width, height, same), 1), whole(expected, 4));
             const auto expect_the_same = [&](const brume_image &z) {
                 plan.execute(from, z, whole(to, 4));
-                expect_same_bits(read(out, to, {}), read(out, expected, {}),
-                                 std::string(format.text) + " " + std::to_string(columns));
+                expect_near(read(out, to, {}), read(out, expected, {}), rounding_of(format),
+                            std::string(format.text) + " " + std::to_string(columns));
             };
             expect_the_same(whole(other, 1, columns, rows));
             const GLuint larger =
