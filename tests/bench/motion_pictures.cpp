@@ -10,39 +10,20 @@
 #include <iostream>
 
 #include "canvas.h"
-#include "fog.h"
-#include "street.h"
+#include "moving_street.h"
 
 using namespace fog;
+using namespace moving_street;
 
 namespace {
 
-constexpr int width = 160, height = 90, frames = 17, gap = 2;
+constexpr int frames = 17, gap = 2;
 
-Shot shot(int frame)
+Shot window(int frame)
 {
-    const double pi = 3.14159265358979323846;
-    return {width, height, 0.5 * height / std::tan(25 * pi / 180), 0.5 * width + 16 - frame, 0.5 * height, 0};
-}
-
-Result fogged(const std::string &resolution, const Shot &s)
-{
-    const Frame frame = Street::render(s);
-    brume_camera c = camera(pose({0, 0, 0}, s.yaw), 50);
-    c.center[0] = s.center_x / s.width;
-    Options options{{}, {"scattered"}};
-    options.camera = &c;
-    const std::string text = scene("\"scattering\":0.03,\"g\":0.8", "\"resolution\":\"" + resolution + "\"");
-    return Plan(cpu(), text, width, height, options).execute(frame.color, frame.depth, options);
-}
-
-double mean_of(const Picture &p)
-{
-    double sum = 0;
-    for (int y = 0; y < p.height; ++y)
-        for (int x = 0; x < p.width; ++x)
-            sum += p.at(x, y)[1] / (double(p.width) * p.height);
-    return sum;
+    Shot s = shot();
+    s.center_x += 16 - frame;
+    return s;
 }
 
 }  // namespace
@@ -55,7 +36,8 @@ int main(int argc, char **argv)
     }
     const std::string resolutions[] = {"full", "half", "quarter"};
     Canvas canvas(2 * width + gap, 2 * height + gap, 2);
-    const Picture seen = fogged("full", shot(0)).output;
+    const Frame first = Street::render(window(0));
+    const Picture seen = run(cpu(), foggy(""), first.color, first.depth).output;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             double shown[3];
@@ -65,23 +47,22 @@ int main(int argc, char **argv)
         }
     for (int k = 0; k < 3; ++k) {
         // Directions are columns of the first frame; the last frames no longer see the first ones.
+        const std::string parameters = "\"resolution\":\"" + resolutions[k] + "\"";
+        const Plan plan(cpu(), foggy(parameters), width, height, {{}, {"scattered"}});
         Picture most(width, height, 1), before;
-        double sum = 0, worst = 0;
+        Changes changes;
         for (int frame = 0; frame < frames; ++frame) {
-            const Picture now = fogged(resolutions[k], shot(frame)).scattered;
+            const Picture now = fog_light(plan, window(frame), Street::render(window(frame)));
             const double mean = mean_of(now);
             for (int y = 0; y < height && frame > 0; ++y)
                 for (int x = 0; x + 1 < width; ++x) {
-                    const double a = before.at(x + 1, y)[1], b = now.at(x, y)[1],
-                                 change = std::abs(b - a) / std::hypot(a, mean / 20);
+                    const double change = changes.add(before.at(x + 1, y)[1], now.at(x, y)[1], mean, x, y, frame);
                     if (x + frame < width)
                         most.at(x + frame, y)[0] = std::max(most.at(x + frame, y)[0], float(change));
-                    sum += change / (double(frames - 1) * (width - 1) * height);
-                    worst = std::max(worst, change);
                 }
             before = now;
         }
-        printf("resolution %s: mean change %.2f %%, worst %.1f %%\n", resolutions[k].c_str(), 100 * sum, 100 * worst);
+        changes.print("resolution " + resolutions[k]);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const double v = 10 * double(most.at(x, y)[0]);

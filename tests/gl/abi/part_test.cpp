@@ -127,7 +127,7 @@ brume_image part_of(GLuint name, uint32_t channels, const Place &place)
 // Drivers differ in the last place of what 24 bits of depth are as floats, by the way that they are read.
 double rounding_of(const Format &format)
 {
-    return std::string(format.text).find("24") != std::string::npos ? 1e-5 : 0;
+    return std::string(format.text).find("24") != std::string::npos ? 1e-6 : 0;
 }
 
 void expect_near(const std::vector<float> &got, const std::vector<float> &expected, double relative, const std::string &what)
