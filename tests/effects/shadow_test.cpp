@@ -92,26 +92,9 @@ TEST(Shadows, DarkenTheFogAlikeOnAllBackends)
 // With a map for each light.
 Picture fogged_by(brume_context context, const Json &scene, const std::vector<Picture> &maps)
 {
-    Options planned;
-    planned.inputs["shadow"] = maps.front();
-    const Plan plan(context, scene.dump(), width, height, planned);
-    const Picture color(width, height, 4, 0), depth(width, height, 1, 12);
-    Picture output = color;
-    const brume_image c = describe(color), d = describe(depth), o = describe(output);
-    std::vector<brume_image> images;
-    for (const Picture &map : maps)
-        images.push_back(describe(map));
-    std::vector<brume_layer> layers;
-    for (uint32_t l = 0; l < images.size(); ++l)
-        layers.push_back(layer("shadow", &images[l], l));
-    brume_frame frame = BRUME_FRAME_INIT;
-    frame.color = &c;
-    frame.depth = &d;
-    frame.output = &o;
-    frame.inputs = layers.data();
-    frame.input_count = uint32_t(layers.size());
-    Context::check(brume_plan_execute(plan, &frame), context);
-    return output;
+    Options options;
+    options.inputs_of_lights["shadow"] = maps;
+    return run(context, scene.dump(), Picture(width, height, 4, 0), Picture(width, height, 1, 12), options).output;
 }
 
 Json first(const Json &lights, size_t count)

@@ -108,6 +108,8 @@ Plan::Plan(brume_context context, const std::string &scene_text, int width, int 
     std::vector<brume_layer> inputs, outputs;
     for (auto &[name, picture] : options.inputs)
         inputs.push_back(layer(name.c_str()));
+    for (auto &[name, pictures] : options.inputs_of_lights)
+        inputs.push_back(layer(name.c_str()));
     for (const std::string &name : options.outputs)
         outputs.push_back(layer(name.c_str()));
     if (options.lights)
@@ -136,6 +138,9 @@ Result Plan::execute(const Picture &color, const Picture &depth, const Options &
     std::vector<brume_layer> inputs, outputs;
     for (auto &[name, picture] : options.inputs)
         inputs.push_back(layer(name.c_str(), &images.emplace_back(image(picture, options))));
+    for (auto &[name, pictures] : options.inputs_of_lights)
+        for (size_t l = 0; l < pictures.size(); ++l)
+            inputs.push_back(layer(name.c_str(), &images.emplace_back(image(pictures[l], options)), uint32_t(l)));
     auto want = [&](const char *name, uint32_t light, Picture &picture) {
         picture = Picture(color.width, color.height, std::string_view(name) == "blur_radius" ? 1 : 3);
         outputs.push_back(layer(name, &images.emplace_back(image(picture, options)), light));

@@ -75,7 +75,8 @@ struct Options {
     uint32_t lights = 0;  // as many first ones give their own airlight
     const brume_camera *camera = nullptr;
     uint32_t origin = BRUME_ORIGIN_TOP_LEFT;
-    std::map<std::string, Picture> inputs = {};  // layers by name
+    std::map<std::string, Picture> inputs = {};                         // layers by name
+    std::map<std::string, std::vector<Picture>> inputs_of_lights = {};  // those of the first lights
 };
 
 brume_layer layer(const char *name, const brume_image *image = nullptr, uint32_t light = 0);
