@@ -103,7 +103,7 @@ PURE vec3 rescattered_sun(IN(Medium) medium, IN(Camera) camera, IN(Light) light,
         float straight = exp(-min((medium.scattering[c] + medium.absorption[c]) * depth, orders_depth_limit));
         sum[c] = slab_source(field, g, straight, -dot(light.direction, direction), dot(direction, slant.up));
     }
-    return min(sum, vec3(radiance_limit)) * light.intensity;
+    return min(min(sum, vec3(radiance_limit)) * light.intensity, vec3(radiance_limit));
 }
 
 // The source toward the camera at t over sigma_s. depth: int rho dt between light and point.
@@ -139,7 +139,7 @@ PURE vec3 rescattered_strength(IN(Medium) medium, IN(Camera) camera, IN(Light) l
         if (light.type == light_spot)
             sum[c] *= spot_spread(light, r.cosine, off_axis);
     }
-    return min(strength * sum, vec3(radiance_limit)) * light.intensity;
+    return min(min(strength * sum, vec3(radiance_limit)) * light.intensity, vec3(radiance_limit));
 }
 
 // The integral over a part of the medium along a path's z in [z, z + dz].

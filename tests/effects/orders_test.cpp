@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "airlight_world.h"
+#include "fog.h"
 
 namespace f32 = brume::maths_float;
 namespace f64 = brume::maths_double;
@@ -377,4 +378,25 @@ TEST(LampOrders, FiniteAtTheExtremes)
                                 << all[k] << ": light at " << away << ", D " << distance << ", sigma " << s << ", g " << g;
                     }
                 }
+}
+
+// The brightest lamp there may be, in units so small that all is at hand: its light is cut at a limit, and not an infinity
+// of which transmittances of 0 make no number.
+TEST(LampOrders, TheBrightestLampAmongGaussiansIsFinite)
+{
+    const std::string text = R"({"brume":1,"metres_per_unit":1e-10,
+        "camera":{"vertical_fov":100,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium":{"scattering":[1e-20,1e10,1e25],"density":[
+          {"type":"gaussian","center":[-0.6,-3,-9],"scale":3e-4,"amplitude":1},
+          {"type":"gaussian","center":[-3,3,-7],"scale":1.7e-3,"amplitude":1e28},
+          {"type":"gaussian","center":[5,2,-9],"scale":1.6e-7,"amplitude":50}]},
+        "lights":[{"type":"spot","position":[3,9,-8],"direction":[0,-1,0],"intensity":1e30,"angle":100,"penumbra":0.4}],
+        "effects":{"airlight":{"orders":"all"}}})";
+    for (fog::Context *context : {&fog::cpu(), fog::gl()}) {
+        if (!context)
+            continue;
+        const fog::Picture out = fog::run(*context, text, fog::Picture(8, 6, 4, 0.5f), fog::Picture(8, 6, 1, 10)).output;
+        for (float v : out.data)
+            ASSERT_TRUE(std::isfinite(v)) << v;
+    }
 }
