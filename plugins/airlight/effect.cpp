@@ -149,7 +149,7 @@ double Planner::gather_operations() const
     // Mesa's software GL vectorises cells well and panels badly.
     const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 700,
                  of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 1900;
-    const double of_orders = p.orders == Orders::all ? 3 : 1;
+    const double of_orders = p.orders == Orders::all && !takes_grid(*state_, scene_) ? 3 : 1;
     double operations = 100 + of_orders * of_terms[finer] * lights * (of_light + of_term * scene_.medium->term_count);
     if (scene_.gaussian_count > 0)
         operations +=
@@ -202,6 +202,7 @@ brume_status Planner::plan_gather()
     const double operations = pixels * gather_operations();
     const MapsOffer maps = offer_maps(request_, state);
     state.maps.used = takes_maps(maps, operations);
+    state.scattered.used = takes_grid(state, scene_);
     if (state.maps.used)
         if (brume_status s = plan_maps(services_, host_, scene_, maps.sizes, state))
             return s;
@@ -210,17 +211,21 @@ brume_status Planner::plan_gather()
         if (brume_status s =
                 entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved", 0, 0))
             return s;
-    return entry(
-        true, "gather",
-        std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
-            (scene_.environment_count ? " and the environment" : "") +
-            (state.parameters.orders == Orders::all
-                 ? " scattered any number of times, about " +
-                       percent(scattered_on_the_way(scene_, state.width, state.height)) + " of it more than once"
-                 : " scattered once") +
-            (state.shadowed ? ", in the shadows of solid things" : "") +
-            (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
-        pixels * (4 + 16), state.maps.used ? maps.operations : operations);
+    if (brume_status s = entry(
+            true, "gather",
+            std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
+                (scene_.environment_count ? " and the environment" : "") +
+                (state.parameters.orders == Orders::all
+                     ? " scattered any number of times, about " +
+                           percent(scattered_on_the_way(scene_, state.width, state.height)) + " of it more than once"
+                     : " scattered once") +
+                (state.shadowed ? ", in the shadows of solid things" : "") +
+                (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
+            pixels * (4 + 16), state.maps.used ? maps.operations : operations))
+        return s;
+    if (!state.scattered.used)
+        return BRUME_OK;
+    return plan_scattered(services_, host_, scene_, (outputs_ & (1u << layer_light_airlight)) != 0, state);
 }
 
 const char *Planner::why_unlit(bool dense) const

@@ -52,6 +52,9 @@ brume_status refresh(const brume_services &services, brume_host host, const brum
     if (state.maps.used)
         if (brume_status s = refresh_maps(services, host, scene, moved, state))
             return s;
+    if (state.scattered.used)
+        if (brume_status s = refresh_scattered(services, host, scene, state))
+            return s;
     state.blobs_pending = false;
     if (state.has_blobs && scene.gaussian_count > 0) {
         state.values.assign(size_t(scene.gaussian_count) * (1 + scene.light_count), 0.0f);

@@ -70,7 +70,9 @@ brume_status create_gather(const brume_services &services, brume_host host, Stat
         pass(state.lit ? "gather" : "compose", gather_slots, state.parameters.tier == Tier::reference ? 1 : 4);
     if (state.parameters.tier != Tier::reference)
         return create(services, host, desc, "airlight_gather.comp", pass_text("airlight_gather.comp"),
-                      define("TIER", tier_of(state)) + define("SHADOWED", state.shadowed), gather_rows, state.gather);
+                      define("TIER", tier_of(state)) + define("SHADOWED", state.shadowed) +
+                          define("ORDERS", gathers_orders(state)),
+                      gather_rows, state.gather);
     desc.rows = gather_reference_rows;
     return services.create_pass(host, &desc, &state.gather);
 }
@@ -91,7 +93,7 @@ public:
 
     brume_status blobs();
     brume_status around();
-    brume_status gather_all();
+    brume_status gather_all(brume_plugin_image radiance, brume_plugin_image error);
     brume_status gather_light(uint32_t light, brume_plugin_image radiance);
     brume_status compose();
 
@@ -166,11 +168,11 @@ brume_status Frame::gather(const Constants &constants, brume_plugin_image to, br
     return services_.run(host_, state_.gather, images, &constants, grid.x, grid.y, nullptr);
 }
 
-brume_status Frame::gather_all()
+brume_status Frame::gather_all(brume_plugin_image radiance, brume_plugin_image error)
 {
     Constants constants = constants_;
     constants.light_range = ivec2(0, int(frame_.scene->light_count));
-    return gather(constants, state_.radiance, state_.error, state_.distances);
+    return gather(constants, radiance, error, state_.distances);
 }
 
 brume_status Frame::gather_light(uint32_t light, brume_plugin_image radiance)
@@ -198,6 +200,33 @@ brume_status Frame::compose()
     images[airlight_out] = frame_.layers[layer_airlight].image;
     images[airlight_error_out] = frame_.layers[layer_airlight_error].image;
     return services_.run(host_, state_.compose, images, &constants_, state_.width, state_.height, nullptr);
+}
+
+brume_status gather_all(const brume_services &services, brume_host host, const brume_plugin_frame &frame, Frame &passes,
+                        State &state)
+{
+    const Scattered &of = state.scattered;
+    const int lights = int(frame.scene->light_count), reduction = state.parameters.reduction;
+    const brume_plugin_image radiance = of.used ? of.radiance : state.radiance, error = of.used ? of.error : state.error;
+    if (brume_status s = state.maps.used ? gather_by_maps(services, host, frame, state,
+                                                          {0, lights, radiance, error, state.distances, true, reduction})
+                                         : passes.gather_all(radiance, error))
+        return s;
+    return of.used ? add_rescattered(services, host, frame, state, {0, lights, state.radiance, state.error, reduction})
+                   : BRUME_OK;
+}
+
+brume_status gather_light(const brume_services &services, brume_host host, const brume_plugin_frame &frame, Frame &passes,
+                          State &state, uint32_t light, brume_plugin_image result)
+{
+    const bool again = state.scattered.used && state.lit;
+    const brume_plugin_image radiance = again ? state.scattered.radiance : result;
+    const int l = int(light);
+    if (brume_status s = state.maps.used && state.lit
+                             ? gather_by_maps(services, host, frame, state, {l, l + 1, radiance, nullptr, nullptr, false, 1})
+                             : passes.gather_light(light, radiance))
+        return s;
+    return again ? add_rescattered(services, host, frame, state, {l, l + 1, result, nullptr, 1}) : BRUME_OK;
 }
 
 }  // namespace
@@ -234,18 +263,12 @@ brume_status run_passes(const brume_services &services, brume_host host, const b
         if (brume_status s = passes.around())
             return s;
     if (state.lit)
-        if (brume_status s = state.maps.used ? gather_by_maps(services, host, frame, state,
-                                                              {0, int(frame.scene->light_count), state.radiance, state.error,
-                                                               state.distances, true, state.parameters.reduction})
-                                             : passes.gather_all())
+        if (brume_status s = gather_all(services, host, frame, passes, state))
             return s;
     const brume_plugin_image *of_lights = frame.layers[layer_light_airlight].of_lights;
     for (uint32_t l = 0; of_lights && l < frame.scene->light_count; ++l)
         if (of_lights[l])
-            if (brume_status s = state.maps.used && state.lit
-                                     ? gather_by_maps(services, host, frame, state,
-                                                      {int(l), int(l) + 1, of_lights[l], nullptr, nullptr, false, 1})
-                                     : passes.gather_light(l, of_lights[l]))
+            if (brume_status s = gather_light(services, host, frame, passes, state, l, of_lights[l]))
                 return s;
     return passes.compose();
 }

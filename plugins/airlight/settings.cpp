@@ -23,9 +23,14 @@ AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene
     // Of one Gaussian reach_share at most; of all that light a pixel, measured (tests AirlightErrorEstimate).
     s.culled = scene.gaussian_count > 0 ? 0.3f * reach_share : 0.0f;
     brume::airlight::set_quality(s, state.parameters.max_error);
-    s.orders = state.parameters.orders == Orders::all ? orders_all : orders_single;
+    s.orders = gathers_orders(state) ? orders_all : orders_single;
     s.shadowed = state.shadowed;
     return s;
+}
+
+bool gathers_orders(const State &state)
+{
+    return state.parameters.orders == Orders::all && !state.scattered.used;
 }
 
 SurroundingsSettings surroundings_settings(const State &state, const brume_plugin_scene &scene)

@@ -20,6 +20,9 @@ int tier_of(const State &state);
 // How finely the tiers integrate a frame, from the error asked.
 brume::maths_float::AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene);
 
+// Whether each pixel gathers orders beyond the first itself.
+bool gathers_orders(const State &state);
+
 // Where the planes around lamps come from.
 brume::maths_float::SurroundingsSettings surroundings_settings(const State &state, const brume_plugin_scene &scene);
 

@@ -5,6 +5,7 @@
 
 #include "maps/maps.h"
 #include "parameters.h"
+#include "scattered/scattered.h"
 #include "shadow_lists.h"
 
 namespace airlight {
@@ -39,7 +40,8 @@ enum Upload : uint32_t {
     upload_environment,
     upload_environment_table,
     upload_slices,
-    upload_attenuation_frames
+    upload_attenuation_frames,
+    upload_distances
 };
 
 // What one plan of this effect holds. Images that a plan does not need are NULL.
@@ -73,6 +75,7 @@ struct State {
     bool fresh = false;
 
     Maps maps;
+    Scattered scattered;
 
     // NULL: not needed.
     brume_pass blobs = nullptr;

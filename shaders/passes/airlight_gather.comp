@@ -1,4 +1,4 @@
-// TIER and SHADOWED, whether some light may have a map, are set by the plan.
+// TIER, SHADOWED, whether some light may have a map, and ORDERS, whether orders beyond the first are gathered here, are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"
@@ -65,6 +65,8 @@ void main()
     AirlightSettings settings = airlight;
     if (SHADOWED == 0)
         settings.shadowed = 0;
+    if (ORDERS == 0)
+        settings.orders = orders_single;
     Airlight a = airlight_at(TIER, brume_medium, brume_camera, settings, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
     imageStore(radiance, p, vec4(a.radiance, 1.0));
     imageStore(error, p, vec4(a.error, 1.0));

@@ -1,4 +1,4 @@
-// ESTIMATE, whether the error is wanted, is set by the plan.
+// ESTIMATE, whether the error is wanted, and ORDERS, whether orders beyond the first are gathered here, are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
 #include "density.glsl"
@@ -61,7 +61,10 @@ void main()
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
     ivec2 pixel = representative(p, reduction, grid.size);
-    Airlight a = mapped_airlight(ESTIMATE, brume_medium, brume_camera, grid, airlight, MAPPED_PIXEL_PASSED, pixel, light_range);
+    AirlightSettings settings = airlight;
+    if (ORDERS == 0)
+        settings.orders = orders_single;
+    Airlight a = mapped_airlight(ESTIMATE, brume_medium, brume_camera, grid, settings, MAPPED_PIXEL_PASSED, pixel, light_range);
     imageStore(radiance, p, vec4(min(a.radiance + texelFetch(previous, p, 0).rgb, vec3(radiance_limit)), 1.0));
     imageStore(error, p, vec4(min(a.error + texelFetch(previous_error, p, 0).rgb, vec3(radiance_limit)), 1.0));
     Ray ray = pixel_ray(brume_camera, vec2(pixel) + 0.5, texelFetch(depth, pixel, 0).r);

@@ -54,16 +54,8 @@ constexpr brume_slot gather_slots[] = {
     fetch("previous_error"), write("radiance"),         write("error"),       write("distances")};
 static_assert(std::size(gather_slots) == maps::gather::slot_count);
 
-constexpr brume_constant constants_table[] = {
-    BRUME_CONSTANT_OF(Constants, grid, size),   BRUME_CONSTANT_OF(Constants, grid, columns),
-    BRUME_CONSTANT_OF(Constants, grid, rows),   BRUME_CONSTANT_OF(Constants, grid, cell),
-    BRUME_CONSTANT_OF(Constants, grid, slices), BRUME_CONSTANT_OF(Constants, grid, across),
-    BRUME_CONSTANT_OF(Constants, grid, side),   BRUME_CONSTANT_OF(Constants, grid, nodes),
-    BRUME_CONSTANT_OF(Constants, grid, mapped), BRUME_CONSTANT_OF(Constants, grid, gaussians),
-    BRUME_CONSTANT_OF(Constants, grid, grey),   BRUME_CONSTANT_OF(Constants, grid, angle),
-    BRUME_CONSTANT_OF(Constants, grid, depth),  BRUME_CONSTANT_OF(Constants, grid, doubt),
-    BRUME_AIRLIGHT_SETTINGS(Constants),         BRUME_CONSTANT(Constants, light_range),
-    BRUME_CONSTANT(Constants, reduction)};
+constexpr brume_constant constants_table[] = {BRUME_GRID_SETTINGS(Constants), BRUME_AIRLIGHT_SETTINGS(Constants),
+                                              BRUME_CONSTANT(Constants, light_range), BRUME_CONSTANT(Constants, reduction)};
 
 template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
 {
@@ -95,9 +87,9 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
     if (brume_status s = create(services, host, pass("grid", lights_slots, 16), "airlight_map_lights.comp",
                                 pass_text("airlight_map_lights.comp"), "", rows.lights, m.lights_pass))
         return s;
-    return create(services, host, pass("gather", gather_slots, 4), "airlight_map_gather.comp",
-                  pass_text("airlight_map_gather.comp"), define("ESTIMATE", state.error != nullptr), rows.gather,
-                  m.gather_pass);
+    return create(
+        services, host, pass("gather", gather_slots, 4), "airlight_map_gather.comp", pass_text("airlight_map_gather.comp"),
+        define("ESTIMATE", state.error != nullptr) + define("ORDERS", gathers_orders(state)), rows.gather, m.gather_pass);
 }
 
 }  // namespace
@@ -113,7 +105,8 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     offer.suits =
         scene.gaussians && scene.gaussian_count >= fewest_gaussians && p.max_error >= least_error && offer.sizes.fine;
     // Orders beyond the first go pixel by pixel.
-    const double lights = scene.light_count, looked_up = lights * (p.orders == Orders::all ? 20 : 1),
+    const double lights = scene.light_count,
+                 looked_up = lights * (p.orders == Orders::all && !takes_grid(state, scene) ? 20 : 1),
                  pixels = double(state.width) * state.height / (p.reduction * p.reduction), slices = offer.sizes.slices,
                  side = fineness.side, of_list = 40 * std::sqrt(1 + 0.1 * scene.gaussian_count),
                  points = double(corners(state.width, offer.sizes.cell)) * corners(state.height, offer.sizes.cell);
@@ -186,13 +179,12 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
                           State &state)
 {
     Maps &m = state.maps;
-    maps::place_slices(scene, m.settings.slices, state.values);
-    if (brume_status s = upload(services, host, upload_slices, 1, state.values, m.slices))
+    maps::place_slices(scene, m.settings.slices, m.distances);
+    if (brume_status s = upload(services, host, upload_slices, 1, m.distances, m.slices))
         return s;
     if (scene.light_count == 0)
         return BRUME_OK;
-    const bool again =
-        m.placed.place(scene, state.lists, state.width, state.height, state.parameters.orders == Orders::all, moved);
+    const bool again = m.placed.place(scene, state.lists, state.width, state.height, gathers_orders(state), moved);
     if (brume_status s = upload(services, host, upload_attenuation_frames, 4, m.placed.texels, m.frames))
         return s;
     m.settings.gaussians = int(scene.gaussian_count);

@@ -25,6 +25,7 @@ struct Maps {
 
     // Refreshed when something moved.
     brume_plugin_image slices = nullptr;
+    std::vector<float> distances;
     brume_plugin_image frames = nullptr;  // attenuation_frames
     bool maps_pending = false;
     bool grid_pending = false;

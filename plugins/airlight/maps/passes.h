@@ -4,6 +4,16 @@
 
 #include "scene_maths.hpp"
 
+// The members of a struct's member `grid`, for tables of constants.
+#define BRUME_GRID_SETTINGS(Struct)                                                                                         \
+    BRUME_CONSTANT_OF(Struct, grid, size), BRUME_CONSTANT_OF(Struct, grid, columns), BRUME_CONSTANT_OF(Struct, grid, rows), \
+        BRUME_CONSTANT_OF(Struct, grid, cell), BRUME_CONSTANT_OF(Struct, grid, slices),                                     \
+        BRUME_CONSTANT_OF(Struct, grid, across), BRUME_CONSTANT_OF(Struct, grid, side),                                     \
+        BRUME_CONSTANT_OF(Struct, grid, nodes), BRUME_CONSTANT_OF(Struct, grid, mapped),                                    \
+        BRUME_CONSTANT_OF(Struct, grid, gaussians), BRUME_CONSTANT_OF(Struct, grid, grey),                                  \
+        BRUME_CONSTANT_OF(Struct, grid, angle), BRUME_CONSTANT_OF(Struct, grid, depth),                                     \
+        BRUME_CONSTANT_OF(Struct, grid, doubt)
+
 namespace airlight::maps {
 
 // Of all passes; each reads what concerns it.

@@ -65,7 +65,8 @@ bool has_terms(const brume_plugin_scene &scene)
     return scene.medium->constant > 0 || scene.medium->term_count > 0;
 }
 
-// Beyond this the constant and exponential terms add nothing that shows.
+}  // namespace
+
 double end_of_terms(const brume_plugin_scene &scene, double gaussians)
 {
     const Medium medium = medium_of(scene);
@@ -83,8 +84,6 @@ double end_of_terms(const brume_plugin_scene &scene, double gaussians)
     const double opaque = std::min(12 / std::max(least, 1e-30), 1e7);
     return std::max(parallel ? opaque : std::min(opaque, 40 * farthest), 1.01 * gaussians);
 }
-
-}  // namespace
 
 int wanted_slices(const brume_plugin_scene &scene, const Fineness &fineness)
 {

@@ -15,4 +15,7 @@ int wanted_slices(const brume_plugin_scene &scene, const Fineness &fineness);
 // the medium has constant or exponential terms, in growing steps.
 void place_slices(const brume_plugin_scene &scene, int slices, std::vector<float> &distances);
 
+// Beyond this the constant and exponential terms add nothing that shows [m]. gaussians: how far those reach.
+double end_of_terms(const brume_plugin_scene &scene, double gaussians);
+
 }  // namespace airlight::maps
