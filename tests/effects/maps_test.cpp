@@ -279,6 +279,9 @@ TEST(AirlightMaps, AreTakenWhereTheyPay)
     EXPECT_FALSE(mapped(scene_of(Json::array({constant(0.1)}), lamps(1))));
     EXPECT_TRUE(mapped(scene_of(cloud(300, 1), lamps(3))));
     EXPECT_FALSE(mapped(with(scene_of(cloud(300, 1), lamps(3)), "tier", "nodes")));
+    // Cells somewhat wider than the Gaussians want them still pay; much wider ones do not serve.
+    EXPECT_TRUE(mapped(with(scene_of(cloud(150, 1), lamps(3)), "memory", 20)));
+    EXPECT_FALSE(mapped(with(scene_of(cloud(1500, 1), lamps(3)), "memory", 8)));
     EXPECT_TRUE(mapped(with(scene_of(cloud(3, 1), lamps(1)), "tier", "maps")));
 }
 

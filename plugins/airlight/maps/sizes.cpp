@@ -48,7 +48,7 @@ Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least
     };
     while ((sizes.bytes = bytes()) > most_bytes && sizes.cell < std::max(width, height))
         sizes.cell *= 2;
-    sizes.fine = sizes.cell <= 1.01 * fineness.cell * deviation && sizes.slices < most_slices;
+    sizes.fine = sizes.cell <= 1.6 * fineness.cell * deviation && sizes.slices < most_slices;
     return sizes;
 }
 
