@@ -164,7 +164,10 @@ bool Planner::takes_maps(const MapsOffer &offer, double other_operations) const
     if (scene_.gaussian_count == 0 || scene_.light_count == 0)
         return false;
     const Tier tier = state_->parameters.tier;
-    return tier == Tier::maps || (tier == Tier::automatic && offer.suits && 2 * offer.operations < other_operations);
+    if (tier != Tier::automatic)
+        return tier == Tier::maps;
+    // Of Gaussians that come with the frames nobody knows how many; nodes would take minutes for some hundreds.
+    return offer.suits && (!scene_.gaussians || 2 * offer.operations < other_operations);
 }
 
 brume_status Planner::plan_gather()

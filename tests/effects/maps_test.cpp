@@ -283,6 +283,11 @@ TEST(AirlightMaps, AreTakenWhereTheyPay)
     EXPECT_TRUE(mapped(with(scene_of(cloud(150, 1), lamps(3)), "memory", 20)));
     EXPECT_FALSE(mapped(with(scene_of(cloud(1500, 1), lamps(3)), "memory", 8)));
     EXPECT_TRUE(mapped(with(scene_of(cloud(3, 1), lamps(1)), "tier", "maps")));
+    // A dozen will do where many lamps shine, and where cameras come with the frames nobody knows how many there are.
+    EXPECT_TRUE(mapped(scene_of(cloud(12, 1), lamps(9))));
+    Json unplaced = scene_of(cloud(300, 1), lamps(3));
+    unplaced.erase("camera");
+    EXPECT_TRUE(mapped(unplaced));
 }
 
 }  // namespace

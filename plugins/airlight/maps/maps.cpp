@@ -31,7 +31,7 @@ constexpr uint64_t most_map_bytes = uint64_t(64) << 20;
 constexpr int widest = 8192;  // of the grid's images
 
 // Unasked, maps are for many Gaussians and errors that their grid reaches.
-constexpr uint32_t fewest_gaussians = 32;
+constexpr uint32_t fewest_gaussians = 8;
 constexpr double least_error = 0.005;
 
 constexpr brume_slot attenuation_slots[] = {
@@ -102,8 +102,8 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     MapsOffer offer{maps::sizes_of(scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, fineness,
                                    uint64_t(p.memory * 1e6)),
                     false, 0};
-    offer.suits =
-        scene.gaussians && scene.gaussian_count >= fewest_gaussians && p.max_error >= least_error && offer.sizes.fine;
+    offer.suits = p.max_error >= least_error && offer.sizes.fine &&
+                  (scene.gaussians ? scene.gaussian_count >= fewest_gaussians : scene.gaussian_count > 0);
     // Orders beyond the first go pixel by pixel.
     const double lights = scene.light_count,
                  looked_up = lights * (p.orders == Orders::all && !takes_grid(state, scene) ? 20 : 1),
