@@ -41,7 +41,7 @@ struct State {
     brume_plugin_image smooth_coverage = nullptr;
     brume_plugin_image ambient_stack = nullptr;  // the surroundings, levels 1 to K
     brume_plugin_image table = nullptr;
-    SpreadSource tabled;  // what `table` was made of
+    SpreadSource tabled;      // what `table` was made of
     bool surrounded = false;  // the scene's environment surrounds the picture, kernel reference's too
     Sky sky;
     brume_plugin_image sky_image = nullptr;
