@@ -212,7 +212,7 @@ brume_status gather_all(const brume_services &services, brume_host host, const b
                                                           {0, lights, radiance, error, state.distances, true, reduction})
                                          : passes.gather_all(radiance, error))
         return s;
-    return of.used ? add_rescattered(services, host, frame, state, {0, lights, state.radiance, state.error, reduction})
+    return of.used ? add_rescattered(services, host, frame, state, {0, lights, state.radiance, state.error, reduction, true})
                    : BRUME_OK;
 }
 
@@ -226,7 +226,7 @@ brume_status gather_light(const brume_services &services, brume_host host, const
                              ? gather_by_maps(services, host, frame, state, {l, l + 1, radiance, nullptr, nullptr, false, 1})
                              : passes.gather_light(light, radiance))
         return s;
-    return again ? add_rescattered(services, host, frame, state, {l, l + 1, result, nullptr, 1}) : BRUME_OK;
+    return again ? add_rescattered(services, host, frame, state, {l, l + 1, result, nullptr, 1, false}) : BRUME_OK;
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ int tier_of(const State &state)
 AirlightSettings settings_of(const State &state, const brume_plugin_scene &scene)
 {
     AirlightSettings s{};
-    s.environment_order = state.environment_order;
+    // Beside the grid its orders are added, too.
+    s.environment_order = state.scattered.used ? 0 : state.environment_order;
     s.light_count = int(scene.light_count);
     s.gaussian_count = int(scene.gaussian_count);
     // Of one Gaussian reach_share at most; of all that light a pixel, measured (tests AirlightErrorEstimate).

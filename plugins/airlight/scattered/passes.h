@@ -12,6 +12,7 @@ struct Constants {
     brume::maths_float::GridSettings grid;  // of tier maps
     brume::maths_float::ivec2 light_range;  // the lights [x, y)
     int32_t reduction;
+    int32_t environment_order;
 };
 
 namespace make {
@@ -29,6 +30,8 @@ enum Slot {
     distances,
     scattered,
     grid_density,
+    environment,
+    environment_table,
     previous,
     previous_error,
     radiance,

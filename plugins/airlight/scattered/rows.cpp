@@ -24,6 +24,23 @@ bool needs_pixels(const Constants &constants, const brume_plugin_medium &medium)
                      : s.gaussians > 0 && (constants.reduction > 2 || medium.noise[0] > 0));
 }
 
+// All orders of the environment.
+brume::maths_float::vec3 around_pixel(const brume_plugin_rows &call, const brume::maths_float::Medium &medium,
+                                      const brume::maths_float::Camera &camera, scalar::ivec2 pixel)
+{
+    using namespace brume::maths_float;
+    using namespace brume_pixels;
+    const Constants &constants = constants_of(call);
+    const brume_plugin_pixels *slots = call.slots;
+    const Ray ray = pixel_ray(camera, pixel_centre(pixel.x, pixel.y), *at(slots[add::depth], pixel.x, pixel.y));
+    if (constants.environment_order == 0 || ray.keep)
+        return vec3(0);
+    const float gaussians = constants.settings.gaussians > 0 ? *at(slots[add::gaussian_density], pixel.x, pixel.y) : 0.0f;
+    return environment_airlight(medium, camera, texture_of(slots[add::environment]),
+                                texture_of(slots[add::environment_table]), constants.environment_order, 1, ray.direction,
+                                density_to(medium, ray, gaussians));
+}
+
 brume_status add_pixels(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     using namespace brume::maths_float;
@@ -50,7 +67,7 @@ brume_status add_pixels(const brume_plugin_rows *call, int32_t first, int32_t la
         auto write = [&](add::Slot to, add::Slot before, vec3 value) {
             store(slots[to], x, y, vec4(min(vec3(load(slots[before], x, y)) + value, vec3(radiance_limit)), 1.0f));
         };
-        write(add::radiance, add::previous, sum);
+        write(add::radiance, add::previous, sum + around_pixel(*call, medium, camera, pixel));
         if (slots[add::error].data)
             write(add::error, add::previous_error, scattered_doubt * sum);
     });

@@ -33,10 +33,11 @@ constexpr brume_slot make_slots[] = {fetch("distances"),      fetch("lights"), f
                                      fetch("shadow_origins"), write("result")};
 static_assert(std::size(make_slots) == scattered::make::slot_count);
 
-constexpr brume_slot add_slots[] = {
-    fetch("depth"),          fetch("gaussian_density"), fetch("tiles"),      fetch("gaussians"),     fetch("tile_gaussians"),
-    fetch("lights"),         fetch("distances"),        linear("scattered"), linear("grid_density"), fetch("previous"),
-    fetch("previous_error"), write("radiance"),         write("error")};
+constexpr brume_slot add_slots[] = {fetch("depth"),          fetch("gaussian_density"),  fetch("tiles"),
+                                    fetch("gaussians"),      fetch("tile_gaussians"),    fetch("lights"),
+                                    fetch("distances"),      linear("scattered"),        linear("grid_density"),
+                                    fetch("environment"),    fetch("environment_table"), fetch("previous"),
+                                    fetch("previous_error"), write("radiance"),          write("error")};
 static_assert(std::size(add_slots) == scattered::add::slot_count);
 
 constexpr brume_constant constants_table[] = {
@@ -45,7 +46,8 @@ constexpr brume_constant constants_table[] = {
     BRUME_CONSTANT_OF(Constants, settings, across), BRUME_CONSTANT_OF(Constants, settings, lights),
     BRUME_CONSTANT_OF(Constants, settings, mapped), BRUME_CONSTANT_OF(Constants, settings, gaussians),
     BRUME_CONSTANT_OF(Constants, settings, cell),   BRUME_GRID_SETTINGS(Constants),
-    BRUME_CONSTANT(Constants, light_range),         BRUME_CONSTANT(Constants, reduction)};
+    BRUME_CONSTANT(Constants, light_range),         BRUME_CONSTANT(Constants, reduction),
+    BRUME_CONSTANT(Constants, environment_order)};
 
 template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
 {
@@ -160,6 +162,7 @@ brume_status add_rescattered(const brume_services &services, brume_host host, co
     constants.grid = state.maps.settings;
     constants.light_range = ivec2(wanted.first, wanted.last);
     constants.reduction = wanted.reduction;
+    constants.environment_order = wanted.environment ? state.environment_order : 0;
     {
         using namespace scattered::make;
         brume_plugin_image images[slot_count] = {};
@@ -186,6 +189,8 @@ brume_status add_rescattered(const brume_services &services, brume_host host, co
     images[distances] = of.distances;
     images[scattered::add::scattered] = of.grid;
     images[grid_density] = state.maps.density;
+    images[environment] = state.environment;
+    images[environment_table] = state.environment_table;
     images[previous] = of.radiance;
     images[previous_error] = wanted.error ? of.error : nullptr;
     images[radiance] = wanted.radiance;

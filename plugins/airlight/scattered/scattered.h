@@ -41,6 +41,7 @@ struct RescatteredGather {
     brume_plugin_image radiance;
     brume_plugin_image error;
     int reduction;
+    bool environment;  // all of its orders, too
 };
 brume_status add_rescattered(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state,
                              const RescatteredGather &wanted);
