@@ -65,8 +65,8 @@ PURE Rescattered rescattered(float scattering, float absorption, float asymmetry
     return rescattered_in(medium, medium.reduced, s + d);
 }
 
-// Net flux of all that arrives, away from the lamp: times r^2 / I. What comes straight is the least of it, which F misses
-// where light is thrown back.
+// Net flux of all that arrives, away from the lamp: times r^2 / I. What comes straight is the least of it, below which F falls
+// where light is thrown back, and else by no more than 1e-13.
 PURE float net_flux(IN(LampMedium) medium, float asymmetry, float x)
 {
     if (!some(medium.a > R(0.0)))
