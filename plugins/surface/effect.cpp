@@ -202,6 +202,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     if (brume_status s = plan_method())
         return s;
     state_->shadowed = has_shadows();
+    state_->material = request_.layers[layer_albedo] != 0;
+    state_->sky = scene_.environment_count > 0;
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
     if (!followed)

@@ -43,11 +43,11 @@ constexpr brume_constant constants_table[] = {BRUME_CONSTANT_OF(Constants, setti
 
 template <size_t Slots>
 brume_status create_pass(const brume_services &services, brume_host host, const char *name, const brume_slot (&slots)[Slots],
-                         brume_rows_function rows, brume_pass &out)
+                         const std::string &defines, brume_rows_function rows, brume_pass &out)
 {
     const std::string file = "surface_" + std::string(name) + ".comp";
     return create(services, host, described(name, slots, constants_table, sizeof(Constants)), file.c_str(), pass_text(file),
-                  "", rows, out);
+                  defines, rows, out);
 }
 
 // The data image in `out` has these values from now on.
@@ -197,15 +197,17 @@ brume_status Frame::compose()
 brume_status create_passes(const brume_services &services, brume_host host, State &state)
 {
     const bool reference = state.method == Method::reference;
+    const std::string light = define("METHOD", int(state.method)) + define("MATERIAL", state.material);
     if (state.normals)
-        if (brume_status s = create_pass(services, host, "normals", normals_slots, normals_rows, state.normals_pass))
+        if (brume_status s = create_pass(services, host, "normals", normals_slots, "", normals_rows, state.normals_pass))
             return s;
     if (state.rest[0])
-        if (brume_status s = create_pass(services, host, "group", group_slots, reference ? group_reference_rows : group_rows,
-                                         state.group_pass))
+        if (brume_status s = create_pass(services, host, "group", group_slots, light,
+                                         reference ? group_reference_rows : group_rows, state.group_pass))
             return s;
-    return create_pass(services, host, "compose", compose_slots, reference ? compose_reference_rows : compose_rows,
-                       state.compose_pass);
+    return create_pass(services, host, "compose", compose_slots,
+                       light + define("ENVIRONMENT", state.sky) + define("SHADOWED", state.shadowed),
+                       reference ? compose_reference_rows : compose_rows, state.compose_pass);
 }
 
 brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state)

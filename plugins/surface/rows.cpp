@@ -1,44 +1,39 @@
 // The passes on the CPU: loops over rows around the functions of shaders/lib/surface.glsl.
+#include <algorithm>
+#include <cstring>
 #include <limits>
 
+#include "lanes.hpp"
 #include "passes.h"
 #include "pixels.hpp"
 
 namespace surface {
 
-using namespace brume::maths_float;
-using namespace brume_pixels;
-
 namespace {
+
+namespace scalar = brume::maths_float;
+using brume_pixels::at;
 
 const Constants &constants_of(const brume_plugin_rows &call)
 {
     return *static_cast<const Constants *>(call.constants);
 }
 
-}  // namespace
-
-brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+// Whether it takes more than surface_lamp.glsl has to say what a light gives.
+bool needs_pixels(const Constants &constants, const brume_plugin_light *first, const brume_plugin_light *last)
 {
-    const Camera camera = camera_of(*call->scene);
-    const brume_plugin_pixels *slots = call->slots;
-    auto ray_at = [&](int x, int y) {
-        const int u = clamp(x, 0, call->width - 1), v = clamp(y, 0, call->height - 1);
-        // Beyond the border there is no neighbour: the one on the other side counts.
-        const float raw = u == x && v == y ? *at(slots[normals::depth], x, y) : std::numeric_limits<float>::infinity();
-        return pixel_ray(camera, pixel_centre(u, v), raw);
-    };
-    return for_pixels(*call, first, last, [&](int x, int y) {
-        const vec3 normal =
-            normal_by_depth(ray_at(x, y), ray_at(x - 1, y), ray_at(x + 1, y), ray_at(x, y - 1), ray_at(x, y + 1));
-        store(slots[normals::normals], x, y, vec4(normal, 1.0f));
-    });
+    return constants.settings.method != scalar::method_calibrated || constants.settings.environment_order > 0 ||
+           constants.settings.shadowed ||
+           std::any_of(first, last, [](const brume_plugin_light &l) { return int(l.type) == scalar::light_directional; });
 }
 
-brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+brume_status group_pixels(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
+    using namespace brume::maths_float;
+    using namespace brume_pixels;
     const Constants &constants = constants_of(*call);
     const Medium medium = medium_of(*call->scene);
+    const LampColours colours = lamp_colours(medium);
     const Camera camera = camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
     const Texture gaussians = texture_of(slots[group::gaussians]), table = texture_of(slots[group::table]),
@@ -51,7 +46,7 @@ brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t la
         const Divided before{vec3(load(slots[group::rest], x, y)),
                              constants.first ? vec3(0.0f) : vec3(load(slots[group::lit], x, y))};
         const Divided after =
-            divided_by_group(medium, constants.settings, surface, light,
+            divided_by_group(medium, colours, constants.settings, surface, light,
                              material_at(constants.settings.material, albedo, specular, roughness, ivec2(x, y)), gaussians,
                              table, before, vec3(load(slots[group::group], x, y)));
         store(slots[group::rest_out], x, y, vec4(after.rest, 1.0f));
@@ -59,10 +54,13 @@ brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t la
     });
 }
 
-brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+brume_status compose_pixels(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
+    using namespace brume::maths_float;
+    using namespace brume_pixels;
     const Constants &constants = constants_of(*call);
     const Medium medium = medium_of(*call->scene);
+    const LampColours colours = lamp_colours(medium);
     const Camera camera = camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
     const Texture lights = texture_of(slots[compose::lights]), ungrouped = texture_of(slots[compose::ungrouped]),
@@ -78,13 +76,43 @@ brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t 
         const Divided divided = constants.first
                                     ? Divided{vec3(source), vec3(0.0f)}
                                     : Divided{vec3(load(slots[compose::rest], x, y)), vec3(load(slots[compose::lit], x, y))};
-        const vec3 shown = relit(medium, camera, constants.settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface,
+        const vec3 shown = relit(medium, colours, camera, constants.settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface,
                                  material_at(constants.settings.material, albedo, specular, roughness, ivec2(x, y)),
                                  vec3(source), divided, call->scene->output_limit);
         store(slots[compose::result], x, y, vec4(shown, source.w));
         if (slots[compose::surface_out].data)
             store(slots[compose::surface_out], x, y, vec4(shown, 1.0f));
     });
+}
+
+struct Rows {
+    brume_rows_function normals, group, compose;
+};
+
+#define BRUME_LANES_BODY "rows.inc"
+#include "lanes_bodies.inc"
+
+}  // namespace
+
+brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    return BRUME_OF_THIS_MACHINE(rows).normals(call, first, last);
+}
+
+brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const brume_plugin_light *light = call->scene->lights + constants_of(*call).light;
+    if (needs_pixels(constants_of(*call), light, light + 1))
+        return group_pixels(call, first, last);
+    return BRUME_OF_THIS_MACHINE(rows).group(call, first, last);
+}
+
+brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const brume_plugin_scene &scene = *call->scene;
+    if (needs_pixels(constants_of(*call), scene.lights, scene.lights + scene.light_count))
+        return compose_pixels(call, first, last);
+    return BRUME_OF_THIS_MACHINE(rows).compose(call, first, last);
 }
 
 }  // namespace surface

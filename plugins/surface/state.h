@@ -38,6 +38,8 @@ struct State {
     brume_plugin_image lit[2] = {};
 
     bool shadowed = false;  // some light has a shadow map
+    bool material = false;  // frames bring albedo
+    bool sky = false;       // the scene has an environment
 
     brume_plugin_image table = nullptr;  // the method's
     brume_plugin_image ungrouped = nullptr, environment = nullptr;

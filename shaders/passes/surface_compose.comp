@@ -41,15 +41,30 @@ uniform sampler2D shadow_maps;
 writeonly uniform image2D result;
 writeonly uniform image2D surface_out;
 
+// As the plan has it: drivers that run both sides of branches would pay for what no pixel needs.
+SurfaceSettings planned()
+{
+    SurfaceSettings s = settings;
+    s.method = METHOD;
+    if (MATERIAL == 0)
+        s.material = 0;
+    if (ENVIRONMENT == 0)
+        s.environment_order = 0;
+    if (SHADOWED == 0)
+        s.shadowed = 0;
+    return s;
+}
+
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
+    SurfaceSettings around = planned();
     vec4 source = texelFetch(color, p, 0);
-    Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
+    Surface surface = surface_of(brume_camera, around, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided divided = first != 0 ? Divided(source.rgb, vec3(0.0)) : Divided(texelFetch(rest, p, 0).rgb, texelFetch(lit, p, 0).rgb);
-    vec3 shown = relit(brume_medium, brume_camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material_at(settings.material, albedo, specular, roughness, p), source.rgb, divided, brume_output_limit);
+    vec3 shown = relit(brume_medium, lamp_colours(brume_medium), brume_camera, around, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material_at(around.material, albedo, specular, roughness, p), source.rgb, divided, brume_output_limit);
     imageStore(result, p, vec4(shown, source.a));
     imageStore(surface_out, p, vec4(shown, 1.0));
 }

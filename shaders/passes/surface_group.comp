@@ -37,15 +37,26 @@ uniform sampler2D roughness;
 writeonly uniform image2D rest_out;
 writeonly uniform image2D lit_out;
 
+// As the plan has it: drivers that run both sides of branches would pay for what no pixel needs.
+SurfaceSettings planned()
+{
+    SurfaceSettings s = settings;
+    s.method = METHOD;
+    if (MATERIAL == 0)
+        s.material = 0;
+    return s;
+}
+
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    Surface surface = surface_of(brume_camera, settings, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
+    SurfaceSettings around = planned();
+    Surface surface = surface_of(brume_camera, around, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
     Divided before = Divided(texelFetch(rest, p, 0).rgb, first != 0 ? vec3(0.0) : texelFetch(lit, p, 0).rgb);
-    Divided after = divided_by_group(brume_medium, settings, surface, light_at(lights, light),
-                                     material_at(settings.material, albedo, specular, roughness, p), gaussians, table, before,
+    Divided after = divided_by_group(brume_medium, lamp_colours(brume_medium), around, surface, light_at(lights, light),
+                                     material_at(around.material, albedo, specular, roughness, p), gaussians, table, before,
                                      texelFetch(group, p, 0).rgb);
     imageStore(rest_out, p, vec4(after.rest, 1.0));
     imageStore(lit_out, p, vec4(after.lit, 1.0));

@@ -1,0 +1,336 @@
+// What of a lamp's light surfaces receive through the medium, by method `calibrated`. Needs lamp_medium.glsl, gaussian.glsl, lit.glsl.
+//
+// A lamp gives a plane that takes all that falls on it, under the cosine c at r, in clear air I c / r^2, and in the medium
+//   I / r^2 [ N(x) c + (1 - a) (h' x^2 / x'^3 N(x') + k x / (1 + (10.7 - 4.3 g) x^2) N(x)) ],  x = s' r,  a = sigma_a / s',
+// N being the lamp's net flux in an endless medium; h' = c x + 1.42 the height of its image below the plane, x' the way from there,
+// which is right from afar; k what one scattering gives more than it takes, fitted to paths (surface_calibration says how
+// well). Nothing is lost in fog that does not absorb: what leaves the beam arrives from aside.
+
+// Light that comes flatter than so counts as if it came so. Its own share of the picture goes to nothing, and what else is there,
+// from surface to surface, must not be taken for it.
+const float least_cosine = R(0.1);
+
+// Of a lamp's irradiance in clear air facing it: what comes the lamp's way, and what comes from aside and has no cosine.
+struct Received {
+    float along;
+    float aside;
+};
+
+// g: of a phase function that is no delta.
+PURE Received received_in(IN(LampMedium) medium, float g, float x, float cosine)
+{
+    float c = clamp(cosine, R(0.0), R(1.0));
+    float up = c * x + R(1.42);
+    float square = x * x * (R(1.0) - c * c) + up * up;
+    float below = sqrt(square);
+    float forward = max(g, R(0.0));
+    float once = (R(1.0) - forward) * (R(0.31) - R(0.57) * forward) +
+                 (R(1.0) - c) * (R(0.18) + forward * (R(0.88) - R(0.65) * forward));
+    float net = net_flux(medium, g, x);
+    float aside = up * x * x / (square * below) * net_flux(medium, g, below) +
+                  once * x / (R(1.0) + (R(10.7) - R(4.3) * forward) * x * x) * net;
+    return Received(net, (R(1.0) - medium.a) * aside);
+}
+
+PURE float within_asymmetry(float asymmetry)
+{
+    return clamp(asymmetry, -largest_asymmetry, largest_asymmetry);
+}
+
+// scattering, absorption: optical depths of the way.
+PURE Received received(float scattering, float absorption, float asymmetry, float cosine)
+{
+    float g = within_asymmetry(asymmetry);
+    LampMedium medium = lamp_medium(min(scattering, orders_depth_limit), min(absorption, orders_depth_limit), g);
+    return received_in(medium, g, medium.reduced, cosine);
+}
+
+PURE float share_of(IN(Received) r, float cosine)
+{
+    return max(r.along + r.aside / max(cosine, least_cosine), R(0.0));
+}
+
+// What a surface receives of a lamp over what it would in clear air.
+PURE float received_share(float scattering, float absorption, float asymmetry, float cosine)
+{
+    return share_of(received(scattering, absorption, asymmetry, cosine), cosine);
+}
+
+struct SurfaceSettings {
+    int method;
+    int light_count;
+    int gaussian_count;
+    int environment_order;
+    int world_normals;
+    int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
+    int shadowed;  // as AirlightSettings has it
+    float ground;  // albedo of what lies below, for suns and sky
+};
+
+PURE vec3 chosen(Bool which, vec3 a, vec3 b)
+{
+    return vec3(choose(which, a.x, b.x), choose(which, a.y, b.y), choose(which, a.z, b.z));
+}
+
+// Where the surface is, and how it lies.
+struct Surface {
+    Bool seen;    // there is one
+    vec3 point;   // camera space [m]
+    vec3 normal;  // unit; 0 where nobody knows it: then it counts as facing every lamp
+};
+
+PURE Bool has_normal(IN(Surface) surface)
+{
+    return dot(surface.normal, surface.normal) > R(0.0);
+}
+
+PURE Surface surface_at(IN(Ray) ray, vec3 normal)
+{
+    Bool seen = !ray.keep && ray.distance < farthest_surface;
+    float size = length(normal);
+    Bool known = is_finite(size) && size > R(1e-6);
+    return Surface(seen, choose(seen, ray.distance, R(0.0)) * ray.direction, chosen(known, normal / size, vec3(R(0.0))));
+}
+
+// d, of the world, in camera axes.
+PURE vec3 in_camera(IN(Camera) camera, vec3 d)
+{
+    return vec3(dot(d, camera.right), dot(d, camera.up), dot(d, camera.back));
+}
+
+// normal: of the layer, or of normal_by_depth().
+PURE Surface surface_of(IN(Camera) camera, IN(SurfaceSettings) settings, vec2 pixel, float raw, vec3 normal)
+{
+    return surface_at(pixel_ray(camera, pixel, raw), settings.world_normals != 0 ? in_camera(camera, normal) : normal);
+}
+
+// Cosine between the normal and the way to the lamp.
+PURE float cosine_to(IN(Surface) surface, IN(Light) light)
+{
+    if (light.type == light_directional)
+        return choose(has_normal(surface), -dot(surface.normal, light.direction), R(1.0));
+    vec3 way = light.position - surface.point;
+    return choose(has_normal(surface), dot(surface.normal, way) / max(length(way), R(1e-20)), R(1.0));
+}
+
+// Irradiance in clear air and without shadows.
+PURE vec3 clear_irradiance(IN(Surface) surface, IN(Light) light)
+{
+    float strength = clamp(cosine_to(surface, light), R(0.0), R(1.0));
+    if (light.type != light_directional) {
+        vec3 way = light.position - surface.point;
+        strength *= fluence(max(length(way), smallest_light), light.radius);
+        if (light.type == light_spot)
+            strength *= spot_factor(light, -dot(way, light.direction) / max(length(way), R(1e-20)));
+    }
+    return min(min(strength, radiance_limit) * light.intensity, vec3(radiance_limit));
+}
+
+// int rho dt between a surface and a lamp.
+PURE float density_to_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) light, sampler2D gaussians, int gaussian_count)
+{
+    vec3 way = light.position - surface.point;
+    float distance = length(way);
+    vec3 direction = way / max(distance, R(1e-20));
+    if (light.type == light_directional) {
+        distance = far_away;
+        direction = -light.direction;
+    }
+    float p = terms_to_light(medium, light, surface.point);
+    for (int i = 0; i < gaussian_count; ++i)
+        p += profile_depth(profile_along(gaussian_at(gaussians, i), surface.point, direction), R(0.0), distance);
+    return clamp(p, R(0.0), density_limit);
+}
+
+// The medium's colours, for lamps at all distances: made once for all of them.
+struct LampColours {
+    LampMedium red;
+    LampMedium green;
+    LampMedium blue;
+    float asymmetry;
+};
+
+PURE LampColours lamp_colours(IN(Medium) medium)
+{
+    float g = within_asymmetry(medium.asymmetry);
+    return LampColours(lamp_medium(medium.scattering.x, medium.absorption.x, g),
+                       lamp_medium(medium.scattering.y, medium.absorption.y, g),
+                       lamp_medium(medium.scattering.z, medium.absorption.z, g), g);
+}
+
+// Whether colours see the same medium, which is worked out once then.
+PURE bool green_as_red(IN(Medium) medium)
+{
+    return some(medium.scattering.x == medium.scattering.y && medium.absorption.x == medium.absorption.y);
+}
+
+PURE bool blue_as_green(IN(Medium) medium)
+{
+    return some(medium.scattering.y == medium.scattering.z && medium.absorption.y == medium.absorption.z);
+}
+
+PURE float share_of_lamp_in(IN(LampMedium) colour, float g, float p, float cosine)
+{
+    return share_of(received_in(colour, g, min(colour.reduced * p, orders_depth_limit), cosine), cosine);
+}
+
+// received_share() of each colour.
+PURE vec3 share_of_lamp(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
+                        IN(Light) light, sampler2D gaussians)
+{
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
+    float cosine = cosine_to(surface, light);
+    float g = colours.asymmetry;
+    vec3 share = vec3(share_of_lamp_in(colours.red, g, p, cosine));
+    if (!green_as_red(medium)) {
+        share.y = share_of_lamp_in(colours.green, g, p, cosine);
+        share.z = share.y;
+    }
+    if (!blue_as_green(medium))
+        share.z = share_of_lamp_in(colours.blue, g, p, cosine);
+    return share;
+}
+
+// What the picture's maker knows of the surface.
+struct Material {
+    Bool known;     // albedo is
+    vec3 albedo;    // of diffuse reflection
+    vec3 specular;  // of glossy reflection; 0 where nobody knows
+    Bool tint;      // specular is the colour of a dielectric's reflection, of which it reflects as much as Fresnel says
+    float exponent; // of Phong's lobe that stands for it
+};
+
+PURE Material unknown_material()
+{
+    return Material(false, vec3(R(0.0)), vec3(R(0.0)), false, R(1.0));
+}
+
+// roughness: as renderers have it, the root of a microfacet distribution's alpha.
+PURE float phong_exponent(float roughness)
+{
+    float alpha = clamp(roughness * roughness, R(0.005), R(1.0));
+    return R(0.5) / (alpha * alpha) - R(0.5);
+}
+
+PURE vec3 reflectance(vec3 colour)
+{
+    return min(max(finite_or_zero(colour), vec3(R(0.0))), vec3(R(1.0)));
+}
+
+PURE Material material_of(int parts, vec3 albedo, vec3 specular, float roughness)
+{
+    if (parts == 0)
+        return unknown_material();
+    Bool glossy = is_finite(roughness) && roughness < R(1.0);
+    if (parts == 1)
+        glossy = false;
+    vec3 of_gloss = chosen(glossy, reflectance(specular), vec3(R(0.0)));
+    vec3 of_all = reflectance(albedo);
+    vec3 both = of_all + of_gloss;
+    // No surface reflects more than it receives.
+    Bool tint = max(max(both.x, both.y), both.z) > R(1.0);
+    return Material(true, of_all, of_gloss, tint, choose(glossy, phong_exponent(roughness), R(1.0)));
+}
+
+// How a surface's glossy part reflects toward the camera.
+struct Shine {
+    vec3 mirrored;  // the lobe's axis
+    vec3 gloss;
+};
+
+PURE Shine shine_of(IN(Surface) surface, IN(Material) material)
+{
+    vec3 view = surface.point / max(length(surface.point), R(1e-20));
+    float grazing = clamp(R(1.0) + dot(view, surface.normal), R(0.0), R(1.0));
+    float twice = grazing * grazing;
+    return Shine(view - R(2.0) * dot(view, surface.normal) * surface.normal,
+                 material.specular * choose(material.tint, R(0.04) + R(0.96) * twice * twice * grazing, R(1.0)));
+}
+
+// How a lamp stands to a surface of known material.
+struct Facing {
+    float strength;  // irradiance across the lamp's way in clear air, for intensity 1
+    float straight;  // of that, what a spot's cone lets through. What leaves the cone is not followed
+    float cosine;
+    float mirror_cosine;
+    float lobe;      // what of the straight light is mirrored, for gloss 1
+};
+
+PURE Facing facing_of(IN(Surface) surface, IN(Light) light, IN(Material) material, IN(Shine) shine)
+{
+    vec3 way = light.position - surface.point;
+    float distance = max(length(way), smallest_light);
+    vec3 to_lamp = way / distance;
+    float strength = min(fluence(distance, light.radius), radiance_limit);
+    float straight = R(1.0);
+    if (light.type == light_directional) {
+        to_lamp = -light.direction;
+        strength = R(1.0);
+    }
+    if (light.type == light_spot)
+        straight = spot_factor(light, -dot(way, light.direction) / distance);
+    float mirror_cosine = dot(shine.mirrored, to_lamp);
+    float cosine = cosine_to(surface, light);
+    float n = material.exponent;
+    float lobe = straight * (n + R(1.0)) / (R(2.0) * pi) * exp(n * log(max(mirror_cosine, R(1e-6))));
+    return Facing(strength, straight, cosine, mirror_cosine,
+                  choose(cosine > R(0.0) && mirror_cosine > R(0.0), lobe, R(0.0)));
+}
+
+// Of one colour: shares of what came straight, diffuse and mirrored, and what comes from aside, onto the surface and into its lobe.
+struct Arrived {
+    float along;
+    float kept;
+    float aside;
+    float mirrored_aside;
+};
+
+PURE Arrived arrived_of_lamp(IN(LampMedium) colour, float g, float p, IN(Facing) facing, float exponent)
+{
+    float x = min(colour.reduced * p, orders_depth_limit);
+    float depth = min(colour.extinction * colour.reduced * p, orders_depth_limit);
+    Received r = received_in(colour, g, x, facing.cosine);
+    Rescattered again = rescattered_in(colour, x, depth);
+    float width = again.cosine * (exponent + R(1.0)) / (exponent + R(2.0));
+    // From behind less comes: the first moments of light of this mean cosine.
+    return Arrived(r.along, parted(depth).x, exp(R(2.0) * again.cosine * min(facing.cosine, R(0.0))) * r.aside,
+                   again.fluence * henyey_greenstein(width, facing.mirror_cosine));
+}
+
+// What one colour of a lamp's part of the picture becomes: `own`, and what the medium brings to where it is not. Diffuse light that
+// came straight keeps to its way and the rest comes from aside, so that shadows and sides turned away get theirs. A highlight keeps
+// e^-tau; what has been scattered makes one as wide as it comes: the mean cosines of the lobe and of the light multiply. Published
+// methods dim all that came straight by e^-tau.
+PURE float reflected(IN(Arrived) arrived, IN(Facing) facing, float intensity, float albedo, float gloss, float own)
+{
+    float clear = min(facing.strength * intensity, radiance_limit);
+    float highlight = min(gloss * facing.lobe * clear, max(own, R(0.0)));
+    float brought = albedo / pi * arrived.aside + gloss * arrived.mirrored_aside;
+    return min((own - highlight) * arrived.along + highlight * arrived.kept +
+                   min(clear * facing.straight, radiance_limit) * brought, radiance_limit);
+}
+
+PURE vec3 lit_by_one_lamp(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
+                          IN(Light) light, IN(Material) material, sampler2D gaussians, vec3 own)
+{
+    if (!some(material.known))
+        return own * share_of_lamp(medium, colours, settings, surface, light, gaussians);
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
+    Shine shine = shine_of(surface, material);
+    Facing facing = facing_of(surface, light, material, shine);
+    float g = colours.asymmetry;
+    float n = material.exponent;
+    Arrived red = arrived_of_lamp(colours.red, g, p, facing, n);
+    Arrived green = red;
+    if (!green_as_red(medium))
+        green = arrived_of_lamp(colours.green, g, p, facing, n);
+    Arrived blue = green;
+    if (!blue_as_green(medium))
+        blue = arrived_of_lamp(colours.blue, g, p, facing, n);
+    vec3 sum = vec3(reflected(red, facing, light.intensity.x, material.albedo.x, shine.gloss.x, own.x),
+                    reflected(green, facing, light.intensity.y, material.albedo.y, shine.gloss.y, own.y),
+                    reflected(blue, facing, light.intensity.z, material.albedo.z, shine.gloss.z, own.z));
+    // Without a normal a surface has no sides and no mirror.
+    vec3 share = vec3(red.along + red.aside, green.along + green.aside, blue.along + blue.aside);
+    return chosen(has_normal(surface), sum, own * share);
+}

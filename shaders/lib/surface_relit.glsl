@@ -1,0 +1,98 @@
+// Pixels whose lights' parts are known, or shared out. Needs what surface.glsl says of each light: share_of_light(), lit_by_light(),
+// lit_by_map(), sky_irradiance(), sky_change(). Of lamps alone pixels of a row may go side by side.
+
+#define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D gaussians, sampler2D environment, sampler2D table
+#define SURFACE_PASSED lights, ungrouped, gaussians, environment, table
+
+// Of this light, where it has a part in what no light's own layer has.
+PURE vec3 ungrouped_irradiance(IN(Camera) camera, IN(SurfaceSettings) settings, SHADOW_MAP_IMAGES, IN(Surface) surface,
+                               IN(Light) light, int index)
+{
+    return lit_by_map(camera, settings.shadowed, SHADOW_MAP_PASSED, surface, index) * clear_irradiance(surface, light);
+}
+
+// What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's.
+// ungrouped: of each light, 1 where it has a part in that.
+PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES,
+                        SHADOW_MAP_IMAGES, IN(Surface) surface, IN(Material) material, vec3 rest)
+{
+    vec3 all = vec3(R(0.0));
+    vec3 changed = vec3(R(0.0));
+    for (int l = 0; l < settings.light_count; ++l) {
+        if (int(data_texel(ungrouped, l).x) == 0)
+            continue;
+        Light light = light_at(lights, l);
+        vec3 irradiance = ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l);
+        all = min(all + irradiance, vec3(radiance_limit));
+        // Without a material a light's part changes by a factor: one loop does.
+        if (!some(material.known))
+            changed += irradiance * (share_of_light(medium, colours, settings, surface, light, gaussians, table) - vec3(R(1.0)));
+    }
+    vec3 sky = sky_irradiance(camera, settings, environment, surface);
+    vec3 scale = vec3(R(1.0)) / max(all + sky, vec3(R(1e-30)));
+    vec3 change = rest * (changed * scale) +
+                  sky_change(medium, camera, settings, gaussians, environment, table, surface, material, rest * (sky * scale));
+    if (some(material.known))
+        for (int l = 0; l < settings.light_count; ++l) {
+            if (int(data_texel(ungrouped, l).x) == 0)
+                continue;
+            Light light = light_at(lights, l);
+            vec3 own = rest * (ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l) * scale);
+            change += lit_by_light(medium, colours, settings, surface, light, material, gaussians, table, own) - own;
+        }
+    return max(rest + change, min(rest, vec3(R(0.0))));
+}
+
+// What a pixel shows of surfaces before and after: what is still to be divided among lamps, and what was.
+struct Divided {
+    vec3 rest;
+    vec3 lit;
+};
+
+// group: the lamp's own layer of the picture.
+PURE Divided divided_by_group(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
+                              IN(Light) light, IN(Material) material, sampler2D gaussians, sampler2D table, IN(Divided) pixel,
+                              vec3 group)
+{
+    vec3 own = finite_or_zero(group);
+    vec3 becomes = own;
+    if (some(surface.seen))
+        becomes = chosen(surface.seen,
+                         lit_by_light(medium, colours, settings, surface, light, material, gaussians, table, own), own);
+    return Divided(pixel.rest - own, min(pixel.lit + becomes, vec3(radiance_limit)));
+}
+
+// The pixel in the end; source: as it was.
+PURE vec3 relit(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES,
+                SHADOW_MAP_IMAGES, IN(Surface) surface, IN(Material) material, vec3 source, IN(Divided) pixel, float limit)
+{
+    if (!some(surface.seen))
+        return source;
+    vec3 sum = rest_received(medium, colours, camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material,
+                             finite_or_zero(pixel.rest)) + pixel.lit;
+    return chosen(surface.seen, compose_radiance(source, vec3(R(0.0)), sum, limit), source);
+}
+
+// A point of the surface that a neighbouring pixel shows, relative to `point`; huge where it shows none.
+PURE vec3 step_to(IN(Ray) ray, vec3 point)
+{
+    return chosen(ray.distance < farthest_surface, ray.distance * ray.direction - point, vec3(R(1e15)));
+}
+
+// Of two steps, one against the other, the shorter: beyond an edge surfaces are far.
+PURE vec3 shorter_step(vec3 after, vec3 before)
+{
+    return chosen(dot(after, after) <= dot(before, before), after, -before);
+}
+
+PURE vec3 normal_by_depth(IN(Ray) ray, IN(Ray) left, IN(Ray) right, IN(Ray) before, IN(Ray) after)
+{
+    Bool seen = ray.distance < farthest_surface;
+    vec3 point = choose(seen, ray.distance, R(0.0)) * ray.direction;
+    vec3 u = shorter_step(step_to(right, point), step_to(left, point));
+    vec3 v = shorter_step(step_to(after, point), step_to(before, point));
+    vec3 n = cross(u / max(length(u), R(1e-20)), v / max(length(v), R(1e-20)));
+    float size = length(n);
+    Bool known = seen && max(dot(u, u), dot(v, v)) <= R(1e26) && size >= R(1e-6);
+    return chosen(known, n / choose(dot(n, ray.direction) > R(0.0), -size, size), vec3(R(0.0)));
+}
