@@ -61,8 +61,8 @@ class Library:
 class Maker:
     """Random instances of a schema."""
 
-    def __init__(self, schema, dice, file):
-        self.definitions, self.dice, self.file = schema["$defs"], dice, file
+    def __init__(self, dice, file):
+        self.dice, self.file = dice, file
 
     def number(self, schema, whole):
         low = schema.get("minimum", schema.get("exclusiveMinimum"))
@@ -97,8 +97,6 @@ class Maker:
             key, lambda: self.make(schema))()
 
     def make(self, schema):
-        if "$ref" in schema:
-            return self.make(self.definitions[schema["$ref"].rsplit("/", 1)[1]])
         for choice in ("anyOf", "oneOf"):
             if choice in schema:
                 return self.make(self.dice.choice(schema[choice]))
@@ -171,7 +169,7 @@ def main(library, sources):
 
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "puffs.csv").write_text("x,y,z,scale,amplitude\n0,5,1,0.5,0.3\n")
-        maker = Maker(schema, dice, "puffs.csv")
+        maker = Maker(dice, "puffs.csv")
 
         def hold(scene, unsaid):
             refusal = brume.refusal(scene, folder + "/scene.json")
