@@ -38,6 +38,8 @@ public:
         state_->height = request.height;
         state_->attenuates = services.made(host, "attenuated_radiance") != BRUME_MADE_EARLIER;
         state_->layered = services.made(host, "density_rgb") == BRUME_MADE_EARLIER;
+        state_->environment_scatters =
+            scene_.environment_count > 0 && services.made(host, "environment_scattering") != BRUME_MADE_EARLIER;
         for (uint32_t i = 0; i < layer_count; ++i)
             outputs_ |= request.layers[i] && layer_table[i].flags & BRUME_LAYER_OUTPUT ? 1u << i : 0;
     }
@@ -183,7 +185,7 @@ brume_status Planner::plan_gather()
     if (reduction > 1)
         if (brume_status s = image("airlight distances", 1, state.distances))
             return s;
-    if (state.parameters.orders == Orders::all) {
+    if (state.parameters.orders == Orders::all && scene_.light_count > 0) {
         constexpr int values = brume::maths_float::sides * int(BRUME_MAX_LIGHTS);
         if (brume_status s =
                 services_.create_image(host_, "airlight surroundings", BRUME_DATA_WIDTH,
@@ -213,7 +215,7 @@ brume_status Planner::plan_gather()
     return entry(
         true, "gather",
         std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
-            (scene_.environment_count ? " and the environment" : "") +
+            (state.environment_scatters ? " and the environment" : "") +
             (state.parameters.orders == Orders::all
                  ? " scattered any number of times, about " +
                        percent(scattered_on_the_way(scene_, state.width, state.height)) + " of it more than once"
@@ -227,6 +229,8 @@ const char *Planner::why_unlit(bool dense) const
 {
     if (scene_.light_count == 0 && scene_.environment_count == 0)
         return "no lights and no environment";
+    if (scene_.light_count == 0 && !state_->environment_scatters)
+        return "no lights, and the environment is what surrounds the picture for an effect before this one";
     if (state_->layered)
         return "the density is a layer's total along each ray, which does not say where the lights meet the medium";
     return dense ? "the medium does not scatter" : "the medium's density is zero everywhere";
@@ -241,7 +245,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     const bool dense = state.layered || m.constant > 0 || m.term_count > 0 || scene_.gaussian_count > 0;
     const bool scatters = dense && any(m.scattering);
     const bool acts = dense && (scatters || any(m.absorption) || any(m.emission));
-    state.lit = scatters && !state.layered && (scene_.light_count > 0 || scene_.environment_count > 0);
+    state.lit = scatters && !state.layered && (scene_.light_count > 0 || state.environment_scatters);
     if (!state.lit && (!acts || !state.attenuates) && outputs_ == 0)
         return drop("airlight", why_unlit(dense));
     if (brume_status s = check_tier())

@@ -75,7 +75,8 @@ brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first,
             a = reference_airlight(seen, ray.direction, ray.distance, constants.light_range.x, constants.light_range.y);
         if (!ray.keep && environment_order > 0)
             a.radiance += environment_airlight(
-                seen.medium, camera, environment.texture(), environment_table.texture(), environment_order, ray.direction,
+                seen.medium, camera, environment.texture(), environment_table.texture(), environment_order,
+                settings.orders == orders_all ? 1 : 0, ray.direction,
                 density_to(seen.medium, ray, gaussian_density.data ? *at(gaussian_density, pixel.x, pixel.y) : 0));
         store(slots[gather::radiance], x, y, {a.radiance, 1.0f});
         if (error.data)

@@ -47,6 +47,7 @@ struct State {
     Parameters parameters;
     int width = 0;
     int height = 0;
+    bool environment_scatters = false;       // there is one, and no other effect takes it for what surrounds the picture
     bool lit = false;                        // some light or environment scatters in the medium
     bool attenuates = false;                 // no effect before this one does
     bool layered = false;                    // a layer of the caller's stands for the medium's density

@@ -11,7 +11,7 @@ brume_status plan_tables(const brume_services &services, brume_host host, const 
     if (state.parameters.tier == Tier::sun || state.parameters.tier == Tier::fogshop)
         if (brume_status s = upload(services, host, upload_sun_table, 1, brume::airlight::sun_table(), state.sun_table))
             return s;
-    if (scene.environment_count == 0)
+    if (!state.environment_scatters)
         return BRUME_OK;
     state.environment_order = int(std::lround(std::sqrt(double(scene.environment_count))));
     return upload(services, host, upload_environment_table, 4, brume::airlight::environment_table(),

@@ -44,7 +44,7 @@ private:
 
     bool wants_output() const;
     double largest_optical_depth() const;
-    brume_status need_camera(bool scatters);
+    brume_status need_camera(bool scatters, bool surrounded);
     brume_status plan_levels(State &state);
     brume_status plan_pyramid(State &state);
     brume_status drop_settings_of_paper();
@@ -66,7 +66,7 @@ bool any(const float (&v)[3])
     return v[0] > 0 || v[1] > 0 || v[2] > 0;
 }
 
-brume_status Planner::need_camera(bool scatters)
+brume_status Planner::need_camera(bool scatters, bool surrounded)
 {
     auto need = [&](bool condition, uint32_t what, const char *reason) {
         return condition ? services_.need_camera(host_, what, reason) : BRUME_OK;
@@ -77,8 +77,17 @@ brume_status Planner::need_camera(bool scatters)
     if (brume_status s = need(request_.scene->camera->depth_kind != BRUME_DEPTH_RAY, BRUME_CAMERA_FIELD_OF_VIEW,
                               "the depth is planar and the field of view turns it into distance along the ray"))
         return s;
+    if (brume_status s = need(surrounded, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
+                              "the environment is placed in the world and surrounds the picture"))
+        return s;
     return need(request_.pose_matters != 0, BRUME_CAMERA_FIELD_OF_VIEW | BRUME_CAMERA_POSE,
                 "the medium's density changes with the position");
+}
+
+// Whether a kernel takes the environment for what surrounds the picture; else it lets others add what that scatters.
+bool surrounds(Kernel kernel)
+{
+    return kernel == Kernel::calibrated || kernel == Kernel::reference;
 }
 
 // Of all that a frame can show; infinite where that has no end.
@@ -210,9 +219,10 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state->beside_lights = services_.made(host_, "single_scattering") != BRUME_MADE_NOWHERE;
     state->beside_all_orders = services_.made(host_, "all_scattering") != BRUME_MADE_NOWHERE;
     state->layered = layered_;
+    state->surrounded = scatters && surrounds(state->parameters.kernel) && request_.scene->environment_count > 0;
     for (uint32_t i = 0; i < layer_count; ++i)
         state->outputs |= request_.layers[i] ? 1u << i : 0;
-    brume_status s = dense ? need_camera(scatters) : BRUME_OK;
+    brume_status s = dense ? need_camera(scatters, state->surrounded) : BRUME_OK;
     if (s)
         return s;
     const Kernel kernel = state->parameters.kernel;
@@ -278,7 +288,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
          "scattered and emitted radiance, which is added to the attenuated image"},
         {size, BRUME_LAYER_OUTPUT, 1, 0, "blur_radius", "deviation of the blur of each pixel's light, in pixels"}};
     static constexpr const char *uses[use_count] = {"density", "density_rgb", "gaussian_density", "visible_lights"};
-    static constexpr const char *makes[] = {"attenuated_radiance"};
+    static constexpr const char *makes[] = {"attenuated_radiance", "environment_scattering"};
     static const brume_effect effect = [] {
         brume_effect e{};
         e.struct_size = sizeof e;
@@ -293,7 +303,10 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.layers = layers;
         e.layer_count = layer_count;
         e.makes = makes;
-        e.make_count = 1;
+        e.make_count = 2;
+        e.makes_with = [](const double *parameters, uint32_t index) {
+            return uint32_t(index == 0 || surrounds(read_parameters(parameters).kernel));
+        };
         e.uses = uses;
         e.use_count = use_count;
         e.plan = plan;

@@ -3,6 +3,7 @@
 
 #include <brume/brume_plugin.h>
 
+#include "calibrated/sky.h"
 #include "calibrated/spread.h"
 #include "parameters.h"
 #include "scene_maths.hpp"
@@ -40,7 +41,10 @@ struct State {
     brume_plugin_image smooth_coverage = nullptr;
     brume_plugin_image ambient_stack = nullptr;  // the surroundings, levels 1 to K
     brume_plugin_image table = nullptr;
-    SpreadSource tabled;  // what `table` was made of
+    SpreadSource tabled;      // what `table` was made of
+    bool surrounded = false;  // the scene's environment surrounds the picture, kernel reference's too
+    Sky sky;
+    brume_plugin_image sky_image = nullptr;
 
     brume_pass spread = nullptr, share = nullptr, smooth = nullptr, collect = nullptr;  // of kernel calibrated
     brume_pass scatter = nullptr, downsample = nullptr;                                 // of kernel paper

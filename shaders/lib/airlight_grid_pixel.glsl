@@ -23,7 +23,8 @@ PURE Airlight mapped_airlight(int estimate, IN(Medium) medium, IN(Camera) camera
         a.error = R(0.8) * abs(half_grid - a.radiance) + s.doubt * a.radiance;
     }
     if (settings.environment_order > 0)
-        a.radiance += environment_airlight(medium, camera, environment, environment_table, settings.environment_order, ray.direction,
+        a.radiance += environment_airlight(medium, camera, environment, environment_table, settings.environment_order,
+                                           settings.orders == orders_all ? 1 : 0, ray.direction,
                                            density_to(medium, ray, texelFetch(gaussian_density, pixel, 0).x));
     return a;
 }

@@ -19,7 +19,7 @@ PURE Airlight airlight_at(int tier, IN(Medium) medium, IN(Camera) camera, IN(Air
     if (settings.environment_order > 0) {
         float gaussian_part = settings.gaussian_count > 0 ? texelFetch(gaussian_density, pixel, 0).x : R(0.0);
         a.radiance += environment_airlight(medium, camera, environment, environment_table, settings.environment_order,
-                                           ray.direction, density_to(medium, ray, gaussian_part));
+                                           settings.orders == orders_all ? 1 : 0, ray.direction, density_to(medium, ray, gaussian_part));
     }
     return a;
 }

@@ -16,6 +16,8 @@ struct Calibrated {
     int coverage;        // channels that coverage has: 1 in grey media
     int lights;          // those that can be seen and whose scattering another effect adds: once,
     int all_orders;      // or all of it
+    int sky;             // 1 where an environment, which `sky` has (sky.glsl), surrounds the image; 0 where the image says what does
+    float first_sky;     // log2 of P at its first depth
     float first_place;   // log2 of P at place 0 of the table
     float per_reach;     // 1 / P there
     vec3 detour;         // y / P^1.2 of arrived()
@@ -193,15 +195,15 @@ PURE Collected collected(IN(Medium) medium, IN(Calibrated) f, sampler2D table, s
     return sum;
 }
 
-// All that the medium scatters toward the camera in front of what a pixel shows. position: as above; share: the pixel's
-// scattered_share(). The pixel's own light does not come from the levels.
-PURE vec3 scattered_light(IN(Medium) medium, IN(Calibrated) f, sampler2D table, sampler2D ambient_stack, IN(Pyramid) pyramid,
-                          vec2 position, float p, vec3 share, vec3 color, vec3 shown, IN(Collected) levels)
+// All that the medium scatters toward the camera in front of what a pixel shows. share: the pixel's
+// scattered_share(). The pixel's own light does not come from the levels. around: what comes from where the image has nothing.
+PURE vec3 scattered_light(IN(Medium) medium, IN(Calibrated) f, sampler2D table, float p, vec3 share, vec3 color, vec3 shown,
+                          vec3 around, IN(Collected) levels)
 {
     float octaves = octaves_of(p);
     vec3 own = staying(table, 0, spread_place(f, octaves)) * arrived_share(medium, f, p, octaves, share);
     vec3 coverage = own + levels.coverage;
     vec3 kept = min(share / max(coverage, vec3(R(1e-35))), vec3(R(1.0)));
     return kept * (own * shown * finite_or_zero(color) + levels.radiance) +
-           max(share - coverage, vec3(R(0.0))) * ambient_radiance(ambient_stack, pyramid, position);
+           max(share - coverage, vec3(R(0.0))) * around;
 }

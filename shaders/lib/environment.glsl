@@ -1,4 +1,4 @@
-// Distant light from all around, scattered once (Zhou et al. 2007 eq. 28). Needs radiance.glsl, data.glsl.
+// Distant light from all around, scattered once (Zhou et al. 2007 eq. 28) or any number of times. Needs radiance.glsl, data.glsl.
 //
 // The paper's six coefficients of NPSF hold at the optical depth T = 1 only (46 % low at T = .05, 95 % high at 4 for l = 0);
 // these are tabulated over T. environment_table: entry k of environment_table_size has its c_0 .. c_3 and c_4, c_5 in texels
@@ -62,12 +62,46 @@ PURE Degrees environment_degrees(sampler2D environment, int order, vec3 d)
     return degree;
 }
 
+// Of what has been scattered at least once on its way through this optical depth of scattering, what keeps degree l of the light's
+// directions: forward, deviations add up (degree l of the phase function is g^l), and far in, where it arrives from still says a
+// little of where it came from: degree 1, fitted to Monte Carlo of a ball of fog about the eye (AirlightEnvironment.BallsOfFog).
+PURE float environment_kept(float asymmetry, float scattering, int l)
+{
+    if (l == 0)
+        return R(1.0);
+    float moment = R(1.0);
+    for (int i = 0; i < l; ++i)
+        moment *= asymmetry;
+    float tau = min(scattering, R(60.0));
+    float kept = moment * exp(-(R(1.0) - moment) * tau) * mean_exponential(moment * tau) / mean_exponential(tau);
+    float x = (R(1.0) - asymmetry) * min(scattering, R(1e6));
+    if (l == 1)
+        kept += x / (R(6.5) + x * (R(0.876) + R(1.456) * x)) * (R(1.0) - max(asymmetry, R(0.0)) * exp(-R(0.5) * x));
+    return kept;
+}
+
+// The environment as fog of this density integral turns it toward the eye, over scattered_share(): as bright where it is alike all
+// around, so that nothing is lost or won. Never negative, as spherical harmonics' ringing would have it.
+PURE vec3 environment_around(IN(Medium) medium, IN(Degrees) degree, int order, float density)
+{
+    vec3 scattering = min(medium.scattering * density, vec3(density_limit));
+    vec3 sum = degree.of[0];
+    for (int c = 0; c < 3; ++c) {
+        for (int l = 1; l < order; ++l)
+            sum[c] += degree.of[l][c] * environment_kept(medium.asymmetry, scattering[c], l);
+        sum[c] = clamp(sum[c], R(0.0), density_limit);
+    }
+    return sum;
+}
+
 // Airlight of the environment where the density integral to what the pixel shows is `density`, colour by colour, times the
-// albedo. Never negative, as spherical harmonics' ringing would have it.
+// albedo; or (all_orders) what of it has been scattered any number of times. Never negative, likewise.
 PURE vec3 environment_airlight(IN(Medium) medium, IN(Camera) camera, sampler2D environment, sampler2D environment_table,
-                               int order, vec3 direction, float density)
+                               int order, int all_orders, vec3 direction, float density)
 {
     Degrees degree = environment_degrees(environment, order, in_world(camera, direction));
+    if (all_orders != 0)
+        return scattered_share(medium, density) * environment_around(medium, degree, order, density);
     vec3 t = min(optical_depth(medium, density), vec3(density_limit));
     vec3 extinction = medium.scattering + medium.absorption;
     vec3 sum = vec3(R(0.0));

@@ -1,4 +1,5 @@
-// PYRAMID (0 none, 1 kernel paper, 2 kernel calibrated), REDUCTION, LAYERED (each colour has a density of its own) and OUTPUTS
+// PYRAMID (0 none, 1 kernel paper, 2 kernel calibrated), REDUCTION, LAYERED (each colour has a density of its own), SKY (of kernel
+// calibrated: an environment surrounds the image) and OUTPUTS
 // (1 transmittance, 2 optical depth, 4 scattered, 8 blur radius) are set by the plan.
 #include "scene.glsl"
 #include "ray.glsl"
@@ -16,6 +17,7 @@
 #include "upsample.glsl"
 #include "calibrated.glsl"
 #include "calibrated_levels.glsl"
+#include "sky.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
@@ -26,6 +28,7 @@ uniform sampler2D lights;
 uniform sampler2D table;
 uniform sampler2D coverage_stack;
 uniform sampler2D ambient_stack;
+uniform sampler2D sky;
 uniform sampler2D coverage;
 #endif
 uniform float brume_output_limit;
@@ -73,8 +76,12 @@ void main()
     Collected levels =
         collected(brume_medium, calibrated, table, radiance_stack, coverage_stack, pyramid, position, pixel.density);
 #endif
-    added += scattered_light(brume_medium, calibrated, table, ambient_stack, pyramid, position, pixel.density, pixel.share,
-                             source.rgb, shown, levels);
+#if SKY
+    vec3 around = surrounding_sky(calibrated, sky, centre / vec2(brume_grid), pixel.density);
+#else
+    vec3 around = ambient_radiance(ambient_stack, pyramid, position);
+#endif
+    added += scattered_light(brume_medium, calibrated, table, pixel.density, pixel.share, source.rgb, shown, around, levels);
 #elif PYRAMID == 1
     added += gathered(radiance, radiance_stack, spread_stack, separated, separated_stack,
                       Pyramid(brume_grid, multiscatter.top), multiscatter, centre, pixel.spread);

@@ -357,7 +357,7 @@ TEST(AirlightEnvironment, IsTheConvolutionWithTheMediumsSpread)
             const double y = std::sqrt(norm) * std::assoc_legendre(l, am, world.z) *
                              (order < 0 ? std::sin(am * phi) : std::cos(am * phi));
             const double p = dice.logarithmic(1e-6, 30);
-            const f32::vec3 found = f32::environment_airlight(m, camera, image, table_image, 6, f32::vec3(d), float(p));
+            const f32::vec3 found = f32::environment_airlight(m, camera, image, table_image, 6, 0, f32::vec3(d), float(p));
             for (int c = 0; c < 3; ++c) {
                 const double depth = (m.scattering[c] + m.absorption[c]) * p,
                              albedo = m.scattering[c] / (m.scattering[c] + m.absorption[c]);
@@ -373,7 +373,7 @@ TEST(AirlightEnvironment, IsTheConvolutionWithTheMediumsSpread)
         constant[size_t(c)] = float(std::sqrt(4 * pi));
     const f32::Texture image{constant.data(), 1024 * 4, 1024, 1, 4};
     for (float p : {0.0f, 1e-30f, 1e-12f, 1e4f, 1e30f}) {
-        const f32::vec3 l = f32::environment_airlight(m, camera, image, table_image, 1, f32::vec3(0, 0, -1), p);
+        const f32::vec3 l = f32::environment_airlight(m, camera, image, table_image, 1, 0, f32::vec3(0, 0, -1), p);
         EXPECT_TRUE(std::isfinite(l.x) && l.x >= 0 && l.x <= 1) << p;
     }
 }

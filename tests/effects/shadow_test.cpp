@@ -277,7 +277,9 @@ TEST(Shadows, OfSlatsAreThoseOfPathTracing)
     };
     EXPECT_GT(rel_mse(shadowed_by(cpu(), "nothing"), truth), 0.5);
     for (const char *where : backend_names) {
-        brume_context context = std::string(where) == "gl" ? brume_context(*gl()) : brume_context(cpu());
+        const bool on_gl = where == std::string("gl");
+        ASSERT_TRUE(!on_gl || gl()) << "no GL backend";
+        brume_context context = on_gl ? *gl() : cpu();
         const Picture by_map = shadowed_by(context, "map");
         EXPECT_LT(rel_mse(by_map, truth), 0.01) << where;
         // A march of 400 steps through the same map has 1.05: what is left is not the intervals'.

@@ -80,7 +80,7 @@ void add_rest(const brume_plugin_rows &call, int first, int count, int y)
         if (lit && !ray.keep) {
             sum += environment_airlight(medium, camera, texture_of(slots[gather::environment]),
                                         texture_of(slots[gather::environment_table]), constants.airlight.environment_order,
-                                        ray.direction,
+                                        constants.airlight.orders == orders_all ? 1 : 0, ray.direction,
                                         density_to(medium, ray, *at(slots[gather::gaussian_density], pixel.x, pixel.y)));
         }
         if (previous.data)

@@ -12,7 +12,7 @@ using namespace brume::maths_float;
 
 namespace {
 
-enum Slot : uint32_t { slot_table };
+enum Slot : uint32_t { slot_table, slot_sky };
 
 brume_status refresh_table(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state)
 {
@@ -24,6 +24,14 @@ brume_status refresh_table(const brume_services &services, brume_host host, cons
         return s;
     state.tabled = source;
     return BRUME_OK;
+}
+
+brume_status refresh_sky(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state)
+{
+    if (!state.surrounded || !state.sky.follow(scene, state.size()))
+        return BRUME_OK;
+    const std::vector<float> &values = state.sky.values();
+    return services.upload(host, slot_sky, 4, values.data(), values.size() / 4, &state.sky_image);
 }
 
 brume_status plan_passes(const brume_services &services, brume_host host, State &state)
@@ -44,7 +52,8 @@ brume_status plan_passes(const brume_services &services, brume_host host, State 
               ? pass("collect", "multiscatter_collect.comp", collect_pass::slots, "", rows.collect, state.collect)
               : BRUME_OK,
           pass("compose", "multiscatter_compose.comp", calibrated_compose_pass::slots,
-               layered + define("PYRAMID", 2) + define("REDUCTION", state.reduction) + define("OUTPUTS", int(state.outputs)),
+               layered + define("PYRAMID", 2) + define("REDUCTION", state.reduction) + define("SKY", state.surrounded) +
+                   define("OUTPUTS", int(state.outputs)),
                rows.compose, state.compose)})
         if (s)
             return s;
@@ -91,6 +100,8 @@ Calibrated calibrated_of(const State &state, const brume_plugin_scene &scene, co
             state.coverage_channels,
             state.beside_lights ? int(visible_lights) : 0,
             state.beside_all_orders,
+            state.surrounded,
+            first_sky(scene),
             float(first_place(tabled)),
             float(std::exp2(-first_place(tabled))),
             detour};
@@ -142,6 +153,12 @@ brume_status plan_calibrated(const brume_services &services, brume_host host, co
         if (brume_status s = services.add_entry(host, &grey))
             return s;
     }
+    if (state.surrounded) {
+        const brume_plugin_entry mean{
+            sizeof mean, 0, "surroundings", "the scene's environment is what surrounds the picture", 0, 0};
+        if (brume_status s = services.add_entry(host, &mean))
+            return s;
+    }
     if (state.reduction > 1) {
         if (brume_status s = entry("collect", collects, texels * (4 + texel * 4 / 3), texels * (60 + collecting)))
             return s;
@@ -154,6 +171,8 @@ brume_status plan_calibrated(const brume_services &services, brume_host host, co
     }
     if (brume_status s = refresh_table(services, host, *request.scene, state))
         return s;
+    if (brume_status s = refresh_sky(services, host, *request.scene, state))
+        return s;
     return plan_passes(services, host, state);
 }
 
@@ -161,6 +180,8 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
                                 const brume_plugin_frame &frame)
 {
     if (brume_status s = refresh_table(services, host, *frame.scene, state))
+        return s;
+    if (brume_status s = refresh_sky(services, host, *frame.scene, state))
         return s;
     const brume_plugin_product &visible = frame.products[use_visible_lights];
     const brume_plugin_image density = image_of(frame, use_density), density_rgb = image_of(frame, use_density_rgb),
@@ -218,6 +239,7 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
                                           state.smooth_radiance,
                                           state.smooth_coverage,
                                           state.ambient_stack,
+                                          state.sky_image,
                                           frame.output,
                                           frame.layers[layer_transmittance].image,
                                           frame.layers[layer_optical_depth].image,

@@ -27,7 +27,8 @@ brume_status plan_paper_passes(const brume_services &services, brume_host host, 
             return s;
     }
     return pass("compose", "multiscatter_compose.comp", paper_compose_pass::slots,
-                layered + define("PYRAMID", state.top > 0) + define("REDUCTION", 1) + define("OUTPUTS", int(state.outputs)),
+                layered + define("PYRAMID", state.top > 0) + define("REDUCTION", 1) + define("SKY", 0) +
+                    define("OUTPUTS", int(state.outputs)),
                 paper_compose_rows, state.compose);
 }
 

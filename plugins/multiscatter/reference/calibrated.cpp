@@ -59,18 +59,29 @@ private:
     }
     const Ring &ring(int dx, int dy) const { return rings_[size_t(std::abs(dy)) * width_ + size_t(std::abs(dx))]; }
     void tabulate(const ReferenceFrame &frame, const SpreadSource &source);
+    vec3 around(const ReferenceFrame &frame, int x, int y, double density) const;
 
     size_t width_ = 0;
     std::vector<Source> sources_;
     std::vector<double> spread_;   // rows x places: light per pixel at an offset
     std::vector<double> visible_;  // rows x visible_places
     std::vector<Ring> rings_;      // by offset
-    vec3 surroundings_{0};
+    vec3 surroundings_{0};         // of the picture where there is no environment
+    Data environment_{nullptr, 0, 4};
 };
 
 Calibrated in_double(const brume::maths_float::Calibrated &f)
 {
-    return {f.top, f.step, 4, f.lights, f.all_orders, double(f.first_place), double(f.per_reach), vec3(f.detour)};
+    return {f.top,
+            f.step,
+            4,
+            f.lights,
+            f.all_orders,
+            f.sky,
+            double(f.first_sky),
+            double(f.first_place),
+            double(f.per_reach),
+            vec3(f.detour)};
 }
 
 void CalibratedSplatting::find_sources(const ReferenceFrame &frame, int first, int last)
@@ -151,6 +162,9 @@ void CalibratedSplatting::prepare(const ReferenceFrame &frame)
 {
     const SpreadSource source = source_of(frame.state, frame.scene);
     tabulate(frame, source);
+    std::vector<float> coefficients;
+    copy_environment(frame.scene, coefficients);
+    environment_ = Data(coefficients.data(), coefficients.size() / 4, 4);
     const int width = frame.state.width, height = frame.state.height;
     vec4 surroundings(0);
     for (const Source &s : sources_)
@@ -194,6 +208,15 @@ void CalibratedSplatting::prepare(const ReferenceFrame &frame)
     }
 }
 
+vec3 CalibratedSplatting::around(const ReferenceFrame &frame, int x, int y, double density) const
+{
+    if (!frame.state.surrounded)
+        return surroundings_;
+    const int order = environment_order(frame.scene);
+    const vec3 direction = in_world(frame.camera, normalize(ray_through(frame.camera, vec2(x + 0.5, y + 0.5))));
+    return environment_around(frame.medium, environment_degrees(environment_.texture(), order, direction), order, density);
+}
+
 void CalibratedSplatting::add_rows(const ReferenceFrame &frame, int first, int last, std::vector<vec3> &sum) const
 {
     const int width = frame.state.width, height = frame.state.height;
@@ -211,9 +234,10 @@ void CalibratedSplatting::add_rows(const ReferenceFrame &frame, int first, int l
                     light += weight * s.radiance;
                     coverage += weight * s.coverage;
                 }
-            const vec3 share = frame.pixel_at(x, y).share;
-            const vec3 kept = min(share / max(coverage, vec3(1e-35)), vec3(1));
-            sum[frame.index(x, y - first)] = kept * light + max(share - coverage, vec3(0)) * surroundings_;
+            const Pixel pixel = frame.pixel_at(x, y);
+            const vec3 kept = min(pixel.share / max(coverage, vec3(1e-35)), vec3(1));
+            sum[frame.index(x, y - first)] =
+                kept * light + max(pixel.share - coverage, vec3(0)) * around(frame, x, y, pixel.density);
         }
 }
 

@@ -164,7 +164,8 @@ typedef struct brume_plugin_layer {
 
    Beside these, effects make what they name in `makes`. Names without images say what a picture holds: attenuated_radiance (it
    is attenuated by the medium, so later effects must not do it again), single_scattering (what the lights scatter once is added
-   to it), all_scattering (whatever they scatter is). */
+   to it), all_scattering (whatever they scatter is), environment_scattering (of the environment's light, all that the medium
+   scatters from where the picture shows nothing is). */
 typedef struct brume_plugin_product {
   uint32_t struct_size;
   uint32_t image_count;
