@@ -60,27 +60,12 @@ Number read_number(const JsonNode &node, const Range &range)
 
 }  // namespace
 
-void FieldReader::operator()(bool &to) const
-{
-    to = node.boolean();
-}
-
-void FieldReader::operator()(double &to) const
-{
-    to = read_constant(node, range);
-}
-
 void FieldReader::operator()(uint32_t &to) const
 {
     const double value = read_constant(node, range);
     if (value != std::floor(value))
         node.expected("a whole " + range.describe());
     to = uint32_t(value);
-}
-
-void FieldReader::operator()(std::string &to) const
-{
-    to = (folder / node.string("the name of an image")).string();
 }
 
 void FieldReader::operator()(Number &to) const

@@ -15,10 +15,10 @@ struct FieldReader {
     Range range;
     uint32_t traits;
 
-    void operator()(bool &to) const;
-    void operator()(double &to) const;
+    void operator()(bool &to) const { to = node.boolean(); }
+    void operator()(double &to) const { to = read_constant(node, range); }
     void operator()(uint32_t &to) const;
-    void operator()(std::string &to) const;
+    void operator()(std::string &to) const { to = (folder / node.string("the name of an image")).string(); }
     void operator()(Number &to) const;
     void operator()(std::array<Number, 2> &to) const;
     void operator()(Number3 &to) const;

@@ -29,11 +29,6 @@ Json described(Json schema, const std::string &description)
     return schema;
 }
 
-Json not_together(const std::string &one, const std::string &other)
-{
-    return {{"not", {{"required", {one, other}}}}};
-}
-
 Json constant(const Range &range)
 {
     return {{"type", "number"},
@@ -119,7 +114,7 @@ template <class T> Json object_of_fields(Fields<T> fields, uint32_t kind = ~0u, 
         if (field.has(needed))
             required.push_back(field.key);
         if (field.instead_of && properties.contains(field.instead_of))
-            rules.push_back(not_together(field.instead_of, field.key));
+            rules.push_back({{"not", {{"required", {field.instead_of, field.key}}}}});
     }
     Json schema = object_of(properties, required);
     if (!rules.empty())
