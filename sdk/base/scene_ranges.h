@@ -5,12 +5,17 @@
 
 namespace brume {
 
+namespace ranges {
+inline constexpr double huge = 1e30;
+}
+
 // What a value of a scene may be. Finite bounds keep every later product finite.
 struct Range {
-    double minimum;
-    double maximum;
+    double minimum = -ranges::huge;
+    double maximum = ranges::huge;
     bool open = false;  // the bounds themselves are excluded
 
+    bool operator==(const Range &) const = default;
     bool contains(double value) const
     {
         return open ? value > minimum && value < maximum : value >= minimum && value <= maximum;
@@ -24,8 +29,7 @@ struct Range {
 
 namespace ranges {
 
-inline constexpr double huge = 1e30;
-inline constexpr Range any{-huge, huge};
+inline constexpr Range any;
 inline constexpr Range not_negative{0.0, huge};
 inline constexpr Range positive{1e-30, huge};
 inline constexpr Range fraction{0.0, 1.0};

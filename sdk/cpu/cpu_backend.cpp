@@ -29,12 +29,21 @@ class Pool : public std::enable_shared_from_this<Pool> {
 public:
     std::shared_ptr<CpuImage> take(int32_t width, int32_t height, int32_t channels)
     {
-        std::unique_ptr<CpuImage> image = idle_.take(
-            [&](const CpuImage &one) { return one.width == width && one.height == height && one.channels == channels; });
+        // What the system has to bring and clear takes longer than all else of a plan; engines that change the resolution
+        // with the frame take what the last size left.
+        const size_t samples = size_t(width) * size_t(height) * size_t(channels);
+        std::unique_ptr<CpuImage> image = idle_.take([&](const CpuImage &one) { return one.owned.size() == samples; });
+        if (!image)
+            image = idle_.take(
+                [&](const CpuImage &one) { return one.owned.size() > samples && one.owned.size() / 2 <= samples; });
         if (!image) {
             image = allocate(width, height, channels);
             idle_.add(*image);
         }
+        image->width = width;
+        image->height = height;
+        image->channels = channels;
+        image->row_stride = int64_t(width) * channels;
         return {image.release(),
                 [pool = shared_from_this()](CpuImage *back) { pool->idle_.put_back(std::unique_ptr<CpuImage>(back)); },
                 RecyclingAllocator<CpuImage>()};
@@ -48,10 +57,6 @@ private:
     std::unique_ptr<CpuImage> allocate(int32_t width, int32_t height, int32_t channels)
     {
         auto image = std::make_unique<CpuImage>();
-        image->width = width;
-        image->height = height;
-        image->channels = channels;
-        image->row_stride = int64_t(width) * channels;
         const size_t samples = size_t(width) * size_t(height) * size_t(channels);
         image->bytes = samples * sizeof(float);
         if (!resize(image->owned, samples)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/fields.h"
 #include "scene/frame_values.h"
 
 namespace brume {
@@ -11,61 +12,37 @@ namespace {
 constexpr double steepest = 1e15;      // falloff [1/m]: its product with any length in float is finite
 constexpr double koschmieder = 3.912;  // -log(0.02): contrast at the visibility's distance is 2 %
 
-template <size_t N> bool any_animated(const std::array<Number, N> &numbers)
-{
-    return std::any_of(numbers.begin(), numbers.end(), [](const Number &n) { return n.animated(); });
-}
-
-bool any_animated(const std::optional<Number> &number)
-{
-    return number && number->animated();
-}
-
 bool always_zero(const Number &number)
 {
     return std::all_of(number.keys.begin(), number.keys.end(), [](const auto &key) { return key.second == 0.0; });
 }
 
-bool animated(const DensityTerm &term)
+template <class T> bool any_animated(const T &value, Fields<T> fields)
 {
-    return term.value.animated() || term.falloff.animated() || any_animated(term.direction) || any_animated(term.origin);
+    bool any = false;
+    each_number(value, fields, ~0u, [&](const Field<T> &, const Number &number, int) { any |= number.animated(); });
+    return any;
 }
 
-bool animated(const GaussianTerm &term)
+template <class T> bool any_animated(const std::vector<T> &values, Fields<T> fields)
 {
-    return any_animated(term.center) || term.scale.animated() || term.amplitude.animated() || any_animated(term.color);
-}
-
-bool animated(const GaussianSet &set)
-{
-    return set.frames || set.amplitude.animated();
-}
-
-template <class Terms> bool any_term_animated(const Terms &terms)
-{
-    return std::any_of(terms.begin(), terms.end(), [](const auto &term) { return animated(term); });
+    return std::any_of(values.begin(), values.end(), [&](const T &value) { return any_animated(value, fields); });
 }
 
 bool animated(const Medium &medium)
 {
-    return any_animated(medium.scattering) || any_animated(medium.absorption) || any_animated(medium.emission) ||
-           medium.g.animated() || any_animated(medium.visibility) || any_animated(medium.droplet_diameter) ||
-           any_term_animated(medium.density) || any_term_animated(medium.gaussians) ||
-           any_term_animated(medium.gaussian_sets) || medium.noise.strength.animated() || medium.noise.scale.animated() ||
-           any_animated(medium.noise.offset);
+    const auto by_frame = [](const GaussianSet &set) { return set.frames != nullptr; };
+    return any_animated(medium, medium_fields) || any_animated(medium.density, density_fields) ||
+           any_animated(medium.gaussians, gaussian_fields) || any_animated(medium.gaussian_sets, gaussian_set_fields) ||
+           std::any_of(medium.gaussian_sets.begin(), medium.gaussian_sets.end(), by_frame) ||
+           any_animated(medium.noise, noise_fields);
 }
 
-bool animated(const Light &light)
+bool shadow_animated(const Light &light)
 {
-    return any_animated(light.position) || any_animated(light.direction) || any_animated(light.intensity) ||
-           light.radius.animated() || light.angle.animated() || light.penumbra.animated() || light.distance.animated() ||
-           light.shadow.extent.animated() || any_animated(light.shadow.to_world);
-}
-
-bool animated(const Camera &camera)
-{
-    return any_animated(camera.vertical_fov) || any_animated(camera.horizontal_fov) || camera.pixel_aspect.animated() ||
-           any_animated(camera.center) || (camera.camera_to_world && any_animated(*camera.camera_to_world));
+    const auto &pose = light.shadow.to_world;
+    return light.shadow.extent.animated() ||
+           std::any_of(pose.begin(), pose.end(), [](const Number &n) { return n.animated(); });
 }
 
 double dot(const std::array<double, 3> &a, const std::array<double, 3> &b)
@@ -165,8 +142,8 @@ double Number::at(double frame) const
 
 bool Scene::animated() const
 {
-    return (medium && brume::animated(*medium)) || brume::animated(camera) ||
-           std::any_of(lights.begin(), lights.end(), [](const Light &light) { return brume::animated(light); });
+    return (medium && brume::animated(*medium)) || any_animated(camera, camera_fields) ||
+           any_animated(lights, light_fields) || std::any_of(lights.begin(), lights.end(), shadow_animated);
 }
 
 bool has_gaussians(const Scene &scene)

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/scene_ranges.h"
+#include "scene/fields.h"
 
 namespace brume {
 namespace {
@@ -17,21 +18,20 @@ void check(double value, const Range &range, const std::string &name)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {}; expected {}", name, value, range.describe()));
 }
 
-void check(const Number &number, const Range &range, const std::string &name)
+// Names are made only where they are needed: engines bring thousands of lights with each frame.
+template <class T> void check_fields(const T &value, Fields<T> fields, uint32_t kind, const std::string &prefix)
 {
-    for (auto &[frame, value] : number.keys)
-        check(value, range, name);
-}
-
-void check(const Number3 &numbers, const Range &range, const std::string &name)
-{
-    for (size_t i = 0; i < 3; ++i)
-        check(numbers[i], range, fmt::format("{}[{}]", name, i));
+    each_number(value, fields, kind, [&](const Field<T> &field, const Number &number, int index) {
+        const double unit = field.has(degrees) ? degree : 1.0;
+        const Range range{field.range.minimum * unit, field.range.maximum * unit, field.range.open};
+        for (const auto &key : number.keys)
+            if (!range.contains(key.second))
+                check(key.second, range, prefix + field.key + (index < 0 ? "" : fmt::format("[{}]", index)));
+    });
 }
 
 void check_direction(const Number3 &direction, const std::string &name)
 {
-    check(direction, ranges::any, name);
     if (std::all_of(direction.begin(), direction.end(), [](const Number &n) { return n.at(0) == 0; }))
         throw Error(BRUME_ERROR_ARGUMENT, name + ": (0, 0, 0); expected a direction");
 }
@@ -58,31 +58,19 @@ std::string rigid_defect(const std::array<double, 16> &m)
 
 void check_medium(const Medium &medium)
 {
-    check(medium.scattering, ranges::not_negative, "medium.scattering");
-    check(medium.absorption, ranges::not_negative, "medium.absorption");
-    check(medium.emission, ranges::not_negative, "medium.emission");
-    check(medium.g, ranges::asymmetry, "medium.g");
-    if (medium.visibility)
-        check(*medium.visibility, ranges::positive, "medium.visibility");
-    if (medium.droplet_diameter)
-        check(*medium.droplet_diameter, ranges::droplet_diameter, "medium.droplet_diameter");
-    check(medium.noise.strength, ranges::noise_strength, "medium.noise_strength");
-    check(medium.noise.scale, ranges::noise_scale, "medium.noise_scale");
-    check(medium.noise.offset, ranges::any, "medium.noise_offset");
-    check(Number(medium.noise.seed), ranges::noise_seed, "medium.noise_seed");
+    check_fields(medium, medium_fields, ~0u, "medium.");
+    check_fields(medium.noise, noise_fields, ~0u, "medium.noise_");
     size_t exponential = 0;
     for (size_t i = 0; i < medium.density.size(); ++i) {
         const DensityTerm &term = medium.density[i];
         std::string name = fmt::format("medium.terms[{}]", i);
         if (term.type != BRUME_DENSITY_CONSTANT && term.type != BRUME_DENSITY_EXPONENTIAL)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_DENSITY_...", name, term.type));
-        check(term.value, ranges::not_negative, name + ".value");
+        check_fields(term, density_fields, 1u << term.type, name + ".");
         if (term.type != BRUME_DENSITY_EXPONENTIAL)
             continue;
         ++exponential;
-        check(term.falloff, ranges::not_negative, name + ".falloff");
         check_direction(term.direction, name + ".direction");
-        check(term.origin, ranges::any, name + ".origin");
     }
     if (exponential > BRUME_MAX_DENSITY_TERMS)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.terms: {} exponential ones; expected at most {}", exponential,
@@ -142,11 +130,11 @@ void check_shadow(const Light &light, const std::string &name)
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around", name, shadow.depth));
     if (!around)
-        check(shadow.extent, parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
+        check(shadow.extent.at(0), parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
     std::array<double, 16> matrix;
     for (size_t i = 0; i < 16; ++i) {
-        check(shadow.to_world[i], ranges::any, fmt::format("{}.shadow_to_world[{}]", name, i));
         matrix[i] = shadow.to_world[i].at(0);
+        check(matrix[i], ranges::any, fmt::format("{}.shadow_to_world[{}]", name, i));
     }
     if (const std::string defect = rigid_defect(matrix); !defect.empty())
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_to_world: {}; expected a rigid motion", name, defect));
@@ -162,19 +150,9 @@ void check_light(const Light &light, const std::string &name)
                     fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name, light.surfaces));
     if (light.type > BRUME_LIGHT_DIRECTIONAL)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
-    check(light.intensity, ranges::not_negative, name + ".intensity");
+    check_fields(light, light_fields, 1u << light.type, name + ".");
     if (light.type != BRUME_LIGHT_POINT)
         check_direction(light.direction, name + ".direction");
-    if (light.type == BRUME_LIGHT_DIRECTIONAL) {
-        check(light.distance, ranges::not_negative, name + ".distance");
-        return;
-    }
-    check(light.position, ranges::any, name + ".position");
-    check(light.radius, ranges::not_negative, name + ".radius");
-    if (light.type == BRUME_LIGHT_SPOT) {
-        check(light.angle, ranges::spot_angle, name + ".angle");
-        check(light.penumbra, ranges::fraction, name + ".penumbra");
-    }
 }
 
 void check_environment(const Environment &environment)

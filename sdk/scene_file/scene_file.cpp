@@ -4,30 +4,9 @@
 #include "base/error.h"
 #include "effects/parameters.h"
 #include "scene_file/scene_file.h"
-#include "scene/scene_numbers.h"
 
 namespace brume {
 namespace {
-
-Camera read_camera(const JsonNode &node)
-{
-    node.allow_only({"vertical_fov", "horizontal_fov", "camera_to_world", "pixel_aspect", "center"});
-    node.refuse_both("vertical_fov", "horizontal_fov");
-    Camera camera;
-    if (const auto fov = node.find("vertical_fov"))
-        camera.vertical_fov = in_radians(read_number(*fov, ranges::field_of_view));
-    if (const auto fov = node.find("horizontal_fov"))
-        camera.horizontal_fov = in_radians(read_number(*fov, ranges::field_of_view));
-    if (const auto pose = node.find("camera_to_world"))
-        camera.camera_to_world = read_matrix(*pose);
-    if (const auto aspect = node.find("pixel_aspect"))
-        camera.pixel_aspect = read_number(*aspect, ranges::pixel_aspect);
-    if (const auto center = node.find("center")) {
-        center->check_array_size(2, "an array of 2 numbers");
-        camera.center = {read_number(center->item(0), ranges::center), read_number(center->item(1), ranges::center)};
-    }
-    return camera;
-}
 
 double read_parameter(const JsonNode &node, const Effect &effect, const Parameter &parameter)
 {
@@ -88,22 +67,16 @@ Quality read_quality(const JsonNode &node)
         quality.preset = read_preset(node);
         return quality;
     }
-    node.allow_only({"preset", "max_error", "budget_ms", "transmittance", "detail"});
-    node.refuse_both("preset", "max_error");
-    node.refuse_both("preset", "budget_ms");
+    allow_fields<Quality>(node, quality_fields, ~0u);
     node.refuse_both("max_error", "budget_ms");
-    if (const auto preset = node.find("preset"))
-        quality.preset = read_preset(*preset);
-    if (const auto error = node.find("max_error"))
-        quality.max_error = read_constant(*error, ranges::max_error);
-    if (const auto budget = node.find("budget_ms"))
-        quality.budget_ms = read_constant(*budget, ranges::budget_ms);
-    if (const auto transmittance = node.find("transmittance"))
-        quality.transmittance = read_constant(*transmittance, ranges::fraction);
-    if (const auto detail = node.find("detail"))
-        quality.detail = read_constant(*detail, ranges::detail);
-    if (!quality.asked())
+    const uint32_t kind = node.find("preset")      ? preset_kind
+                          : node.find("max_error") ? error_kind
+                          : node.find("budget_ms") ? budget_kind
+                                                   : 0;
+    if (!kind)
         node.fail("nothing is asked; expected a preset, max_error or budget_ms");
+    read_fields<Quality>(node, {}, quality_fields, kind, quality,
+                         [&](std::string_view, const JsonNode &preset) { quality.preset = read_preset(preset); });
     return quality;
 }
 
@@ -118,7 +91,7 @@ Scene read_scene(const JsonNode &root, const std::filesystem::path &folder, cons
     if (const auto metres = root.find("metres_per_unit"))
         scene.metres_per_unit = read_constant(*metres, ranges::positive);
     if (const auto camera = root.find("camera"))
-        scene.camera = read_camera(*camera);
+        read_fields<Camera>(*camera, folder, camera_fields, ~0u, scene.camera, nothing_more);
     if (const auto medium = root.find("medium"))
         scene.medium = read_medium(*medium, folder);
     if (const auto lights = root.find("lights"))

@@ -1,5 +1,6 @@
-#include <limits>
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -7,7 +8,6 @@
 
 #include "scene/scene_check.h"
 #include "scene_file/scene_file.h"
-#include "scene/scene_numbers.h"
 
 namespace brume {
 namespace {
@@ -16,13 +16,13 @@ struct Projection {
     const char *name;
     uint32_t kind;
     bool parallel;
-    const char *extent;  // the key of how much the map sees; NULL: all
+    uint32_t map, buffer;  // of shadow_fields
 };
 
 // The first that suits a light goes without saying.
-constexpr Projection projections[] = {{"perspective", BRUME_SHADOW_PERSPECTIVE, false, "vertical_fov"},
-                                      {"latlong", BRUME_SHADOW_LATLONG, false, nullptr},
-                                      {"orthographic", BRUME_SHADOW_ORTHOGRAPHIC, true, "orthographic_width"}};
+constexpr Projection projections[] = {{"perspective", BRUME_SHADOW_PERSPECTIVE, false, flat_map, flat_buffer},
+                                      {"latlong", BRUME_SHADOW_LATLONG, false, latlong_map, latlong_map},
+                                      {"orthographic", BRUME_SHADOW_ORTHOGRAPHIC, true, parallel_map, parallel_buffer}};
 
 const Projection &read_projection(const JsonNode &node, bool parallel)
 {
@@ -35,41 +35,21 @@ const Projection &read_projection(const JsonNode &node, bool parallel)
     given->expected(what);
 }
 
-void read_depth(const JsonNode &node, const Projection &projection, LightShadow &shadow)
+uint32_t read_depth(const JsonNode &node, bool around)
 {
-    const bool around = projection.kind == BRUME_SHADOW_LATLONG;
-    shadow.depth = around ? BRUME_DEPTH_RAY : BRUME_DEPTH_PLANAR;
     const auto depth = node.find("depth");
+    if (!depth)
+        return around ? BRUME_DEPTH_RAY : BRUME_DEPTH_PLANAR;
     const std::string what = around ? "\"ray\"" : "\"planar\", \"ray\" or \"device\"";
-    if (depth) {
-        const std::string &kind = depth->string(what);
-        if (kind != "ray" && (around || (kind != "planar" && kind != "device")))
-            depth->expected(what);
-        shadow.depth = kind == "ray" ? BRUME_DEPTH_RAY : kind == "planar" ? BRUME_DEPTH_PLANAR : BRUME_DEPTH_DEVICE;
-    }
-    if (shadow.depth != BRUME_DEPTH_DEVICE) {
-        for (const char *key : {"near", "far", "reversed"})
-            if (const auto unread = node.find(key))
-                unread->expected("none: depth is not device");
-        return;
-    }
-    const bool parallel = projection.parallel;
-    const double near = read_constant(node.get("near"), parallel ? ranges::any : ranges::positive);
-    double far = std::numeric_limits<double>::infinity();
-    if (const auto given = node.find("far"))
-        far = read_constant(*given, parallel ? ranges::any : ranges::positive);
-    else if (parallel)
-        node.get("far");
-    if (!(near < far))
-        node.get("far").expected(fmt::format("a number above near, {}", near));
-    shadow.range = {near, far};
-    if (const auto reversed = node.find("reversed"); reversed && reversed->boolean())
-        std::swap(shadow.range[0], shadow.range[1]);
+    const std::string &kind = depth->string(what);
+    if (kind != "ray" && (around || (kind != "planar" && kind != "device")))
+        depth->expected(what);
+    return kind == "ray" ? BRUME_DEPTH_RAY : kind == "planar" ? BRUME_DEPTH_PLANAR : BRUME_DEPTH_DEVICE;
 }
 
 LightShadow read_shadow(const JsonNode &node, bool parallel, const std::filesystem::path &folder)
 {
-    LightShadow shadow;
+    ShadowText shadow;
     if (const std::string *name = node.value().as<std::string>()) {
         if (parallel || *name != "screen")
             node.expected(parallel ? "an object" : "an object, or \"screen\"");
@@ -77,17 +57,21 @@ LightShadow read_shadow(const JsonNode &node, bool parallel, const std::filesyst
         return shadow;
     }
     const Projection &projection = read_projection(node, parallel);
-    std::vector<std::string> keys{"file", "camera_to_world", "projection", "depth", "near", "far", "reversed"};
-    if (projection.extent)
-        keys.push_back(projection.extent);
-    node.allow_only(keys);
+    allow_fields<ShadowText>(node, shadow_fields, projection.map | projection.buffer);
     shadow.kind = projection.kind;
-    shadow.file = (folder / node.get("file").string("the name of an image")).string();
-    shadow.to_world = read_matrix(node.get("camera_to_world"));
-    if (projection.extent)
-        shadow.extent = parallel ? read_number(node.get(projection.extent), ranges::positive)
-                                 : in_radians(read_number(node.get(projection.extent), ranges::field_of_view));
-    read_depth(node, projection, shadow);
+    shadow.depth = read_depth(node, shadow.kind == BRUME_SHADOW_LATLONG);
+    const bool device = shadow.depth == BRUME_DEPTH_DEVICE;
+    for (const char *key : {"near", "far", "reversed"})
+        if (const auto unread = node.find(key); unread && !device)
+            unread->expected("none: depth is not device");
+    read_fields<ShadowText>(node, folder, shadow_fields, device ? projection.buffer : projection.map, shadow, nothing_more);
+    if (!device)
+        return shadow;
+    if (!(shadow.near < shadow.far))
+        node.get("far").expected(fmt::format("a number above near, {}", shadow.near));
+    shadow.range = {shadow.near, shadow.far};
+    if (shadow.reversed)
+        std::swap(shadow.range[0], shadow.range[1]);
     return shadow;
 }
 
@@ -96,43 +80,22 @@ Light read_light(const JsonNode &node, const std::filesystem::path &folder)
     const JsonNode type = node.get("type");
     const std::string what = "\"point\", \"spot\" or \"directional\"";
     const std::string &name = type.string(what);
-    Light light;
-    if (name == "point") {
-        node.allow_only({"type", "intensity", "position", "radius", "shadow", "surfaces", "group"});
-    } else if (name == "spot") {
-        light.type = BRUME_LIGHT_SPOT;
-        node.allow_only(
-            {"type", "intensity", "position", "radius", "direction", "angle", "penumbra", "shadow", "surfaces", "group"});
-    } else if (name == "directional") {
-        light.type = BRUME_LIGHT_DIRECTIONAL;
-        node.allow_only({"type", "intensity", "direction", "distance", "shadow", "surfaces", "group"});
-    } else {
+    const auto found = std::find(std::begin(light_names), std::end(light_names), name);
+    if (found == std::end(light_names))
         type.expected(what);
-    }
-    light.intensity = read_rgb(node.get("intensity"), ranges::not_negative);
-    if (light.type != BRUME_LIGHT_DIRECTIONAL)
-        light.position = read_vector(node.get("position"), ranges::any);
-    if (light.type != BRUME_LIGHT_POINT)
-        light.direction = read_direction(node.get("direction"));
-    if (const auto radius = node.find("radius"))
-        light.radius = read_number(*radius, ranges::not_negative);
-    if (const auto angle = node.find("angle"))
-        light.angle = in_radians(read_number(*angle, ranges::spot_degrees));
-    if (const auto penumbra = node.find("penumbra"))
-        light.penumbra = read_number(*penumbra, ranges::fraction);
-    if (const auto distance = node.find("distance"))
-        light.distance = read_number(*distance, ranges::not_negative);
-    if (const auto shadow = node.find("shadow"))
-        light.shadow = read_shadow(*shadow, light.type == BRUME_LIGHT_DIRECTIONAL, folder);
-    if (const auto surfaces = node.find("surfaces"))
-        light.surfaces = surfaces->boolean() ? BRUME_SURFACES_LIT : BRUME_SURFACES_UNLIT;
-    if (const auto group = node.find("group")) {
-        light.group = group->string("the name of a layer");
-        if (light.group.empty())
-            group->expected("the name of a layer");
-        if (light.surfaces == BRUME_SURFACES_UNLIT)
-            group->expected("no group, since surfaces is false");
-    }
+    Light light;
+    light.type = uint32_t(found - std::begin(light_names));
+    read_fields<Light>(node, folder, light_fields, 1u << light.type, light,
+                       [&](std::string_view key, const JsonNode &value) {
+                           if (key == "shadow")
+                               light.shadow = read_shadow(value, light.type == BRUME_LIGHT_DIRECTIONAL, folder);
+                           else if (key == "surfaces")
+                               light.surfaces = value.boolean() ? BRUME_SURFACES_LIT : BRUME_SURFACES_UNLIT;
+                           else if (key == "group" && (light.group = value.string("the name of a layer")).empty())
+                               value.expected("the name of a layer");
+                       });
+    if (light.surfaces == BRUME_SURFACES_UNLIT && !light.group.empty())
+        node.get("group").expected("no group, since surfaces is false");
     return light;
 }
 
@@ -143,6 +106,21 @@ void expect_own_groups(const JsonNode &node, const std::vector<Light> &lights)
         for (size_t j = 0; j < i && !lights[i].group.empty(); ++j)
             if (lights[i].group == lights[j].group)
                 node.item(i).get("group").expected(fmt::format("a group of its own: lights[{}] has this one", j));
+}
+
+void read_coefficients(const JsonNode &list, Environment &environment)
+{
+    const std::string what = "1, 4, 9, 16, 25 or 36 [r, g, b] triples";
+    const size_t count = list.array_size(what);
+    if (!is_environment_count(count))
+        list.expected(what);
+    for (size_t i = 0; i < count; ++i) {
+        const JsonNode triple = list.item(i);
+        triple.check_array_size(3, "an [r, g, b] triple");
+        environment.coefficients.push_back({read_constant(triple.item(0), ranges::any),
+                                            read_constant(triple.item(1), ranges::any),
+                                            read_constant(triple.item(2), ranges::any)});
+    }
 }
 
 }  // namespace
@@ -161,32 +139,20 @@ std::vector<Light> read_lights(const JsonNode &node, const std::filesystem::path
 
 Environment read_environment(const JsonNode &node, const std::filesystem::path &folder)
 {
-    node.allow_only({"sh", "file", "up"});
-    node.refuse_both("sh", "file");
+    allow_fields<Environment>(node, environment_fields, ~0u);
     Environment environment;
-    if (const auto file = node.find("file")) {
-        environment.file = (folder / file->string("the name of an image")).string();
-        if (const auto up = node.find("up")) {
-            const std::string &axis = up->string("\"y\" or \"z\"");
+    if (node.find("file")) {
+        const auto up = [&](std::string_view, const JsonNode &value) {
+            const std::string &axis = value.string("\"y\" or \"z\"");
             if (axis != "y" && axis != "z")
-                up->expected("\"y\" or \"z\"");
+                value.expected("\"y\" or \"z\"");
             environment.file_up = axis == "z" ? BRUME_UP_Z : BRUME_UP_Y;
-        }
+        };
+        read_fields<Environment>(node, folder, environment_fields, picture_kind, environment, up);
         return environment;
     }
-    const JsonNode list = node.get("sh");
-    node.allow_only({"sh"});
-    const std::string what = "1, 4, 9, 16, 25 or 36 [r, g, b] triples";
-    const size_t count = list.array_size(what);
-    if (!is_environment_count(count))
-        list.expected(what);
-    for (size_t i = 0; i < count; ++i) {
-        const JsonNode triple = list.item(i);
-        triple.check_array_size(3, "an [r, g, b] triple");
-        environment.coefficients.push_back({read_constant(triple.item(0), ranges::any),
-                                            read_constant(triple.item(1), ranges::any),
-                                            read_constant(triple.item(2), ranges::any)});
-    }
+    read_fields<Environment>(node, folder, environment_fields, coefficients_kind, environment,
+                             [&](std::string_view, const JsonNode &list) { read_coefficients(list, environment); });
     return environment;
 }
 

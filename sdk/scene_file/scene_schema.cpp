@@ -1,18 +1,14 @@
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "effects/effects.h"
-#include "scene/scene.h"
-#include "base/scene_ranges.h"
+#include "scene/fields.h"
 
 namespace brume {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json reference(const std::string &definition)
-{
-    return {{"$ref", "#/$defs/" + definition}};
-}
 
 Json array_of(const Json &items, size_t count)
 {
@@ -33,11 +29,6 @@ Json described(Json schema, const std::string &description)
     return schema;
 }
 
-Json not_together(const std::string &one, const std::string &other)
-{
-    return {{"not", {{"required", {one, other}}}}};
-}
-
 Json constant(const Range &range)
 {
     return {{"type", "number"},
@@ -56,172 +47,129 @@ Json number(const Range &range)
     return {{"anyOf", Json::array({constant(range), object_of({{"keys", keys}}, {"keys"})})}};
 }
 
-Json definitions()
+// How each type of member is written, and what it is where nothing is written.
+struct MemberSchema {
+    const Range &range;
+    uint32_t traits;
+
+    Json written(bool) const { return {{"type", "boolean"}}; }
+    Json written(double) const { return constant(range); }
+    Json written(uint32_t) const
+    {
+        return {{"type", "integer"}, {"minimum", int(range.minimum)}, {"maximum", int(range.maximum)}};
+    }
+    Json written(const std::string &) const { return {{"type", "string"}}; }
+    Json written(const Number &) const { return number(range); }
+    Json written(const std::array<Number, 2> &) const { return array_of(number(range), 2); }
+    Json written(const Number3 &) const
+    {
+        Json three = array_of(number(range), 3);
+        if (traits & direction)
+            three["not"] = {{"const", {0, 0, 0}}};
+        return traits & color ? Json{{"anyOf", Json::array({number(range), three})}} : three;
+    }
+    Json written(const Matrix &) const { return array_of(array_of(number(range), 4), 4); }
+    template <class Value> Json written(const std::optional<Value> &) const { return written(Value()); }
+
+    Json left(bool value) const { return value; }
+    Json left(double value) const { return std::isfinite(value) ? Json(value) : Json(); }
+    Json left(uint32_t value) const { return value; }
+    Json left(const std::string &) const { return {}; }
+    Json left(const Number &value) const { return traits & degrees ? std::round(value.at(0) / degree) : value.at(0); }
+    template <size_t N> Json left(const std::array<Number, N> &values) const
+    {
+        Json list = Json::array();
+        for (const Number &value : values)
+            list.push_back(value.at(0));
+        return traits & color ? list[0] : list;
+    }
+    Json left(const Matrix &) const { return {}; }
+    template <class Value> Json left(const std::optional<Value> &) const { return {}; }
+};
+
+// Objects of this kind. `own`: what the table has no member for.
+template <class T> Json object_of_fields(Fields<T> fields, uint32_t kind = ~0u, Json own = {})
 {
-    const Json vector = array_of(reference("number"), 3);
-    Json direction = vector;
-    direction["not"] = {{"const", {0, 0, 0}}};
-    return {{"number", number(ranges::any)},
-            {"not_negative", number(ranges::not_negative)},
-            {"fraction", number(ranges::fraction)},
-            {"field_of_view", number(ranges::field_of_view)},
-            {"rgb", {{"anyOf", Json::array({reference("not_negative"), array_of(reference("not_negative"), 3)})}}},
-            {"vector", vector},
-            {"direction", direction}};
+    Json properties, rules = Json::array();
+    std::vector<std::string> required;
+    for (const Field<T> &field : fields) {
+        if (!field.is(kind))
+            continue;
+        Json &schema = properties[field.key];
+        std::visit(
+            [&](auto member) {
+                if constexpr (std::is_same_v<decltype(member), std::monostate>) {
+                    schema = own.at(field.key);
+                } else {
+                    static const T empty;
+                    const MemberSchema as{field.range, field.traits};
+                    schema = as.written(empty.*member);
+                    if (const Json left = as.left(empty.*member); !field.has(needed) && !left.is_null())
+                        schema["default"] = left;
+                }
+            },
+            field.member);
+        if (*field.help)
+            schema["description"] = field.help;
+        if (field.has(needed))
+            required.push_back(field.key);
+        if (field.instead_of && properties.contains(field.instead_of))
+            rules.push_back({{"not", {{"required", {field.instead_of, field.key}}}}});
+    }
+    Json schema = object_of(properties, required);
+    if (!rules.empty())
+        schema["allOf"] = rules;
+    return schema;
 }
 
-Json camera()
+Json named(const char *type)
 {
-    Json schema = object_of(
-        {{"vertical_fov", described(reference("field_of_view"), "Of the display window's height [degrees]")},
-         {"horizontal_fov", described(reference("field_of_view"), "Of the display window's width [degrees]")},
-         {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
-                                       "Row-major, applied to column points; rigid; looks down -z, +y up")},
-         {"pixel_aspect", described(number(ranges::pixel_aspect), "Width of a pixel over its height; 1 by default")},
-         {"center", described(array_of(number(ranges::center), 2),
-                              "Principal point as a fraction of the display window, from its left and its top")}});
-    schema["allOf"] = Json::array({not_together("vertical_fov", "horizontal_fov")});
-    return schema;
+    return {{"type", {{"const", type}}}};
 }
 
 Json density()
 {
-    const Json value = described(reference("not_negative"), "Ratio to unit density; 1 by default");
-    const Json constant_term = object_of({{"type", {{"const", "constant"}}}, {"value", value}}, {"type"});
-    const Json exponential_term =
-        object_of({{"type", {{"const", "exponential"}}},
-                   {"value", value},
-                   {"falloff", described(reference("not_negative"), "[1/m]; 0 by default")},
-                   {"direction", described(reference("direction"), "The density falls along it; [0, 1, 0] by default")},
-                   {"origin", described(reference("vector"), "Where the density has its value; scene units")}},
-                  {"type"});
-    const Json tint{{"anyOf", Json::array({reference("fraction"), array_of(reference("fraction"), 3)})}};
-    const Json gaussian_term =
-        object_of({{"type", {{"const", "gaussian"}}},
-                   {"center", described(reference("vector"), "Scene units")},
-                   {"scale", described(number(ranges::positive), "a of exp(-a^2 |x - center|^2) [1/scene unit]")},
-                   {"amplitude", described(reference("not_negative"), "Ratio to unit density; 1 by default")},
-                   {"colour", described(tint, "Share of what it would scatter that is not absorbed; 1 by default")}},
-                  {"type", "center", "scale"});
-    const Json gaussians_term = object_of(
-        {{"type", {{"const", "gaussians"}}},
-         {"file", described({{"type", "string"}},
-                            "CSV or PLY, relative to the scene file; one per frame with %04d or #### in its name")},
-         {"amplitude", described(reference("not_negative"), "Times each of theirs; 1 by default")}},
-        {"type", "file"});
+    Json gaussians = named("gaussians");
+    gaussians["file"] = {{"type", "string"}};
+    const Json terms =
+        Json::array({object_of_fields<DensityTerm>(density_fields, 1u << BRUME_DENSITY_CONSTANT, named("constant")),
+                     object_of_fields<DensityTerm>(density_fields, 1u << BRUME_DENSITY_EXPONENTIAL, named("exponential")),
+                     object_of_fields<GaussianTerm>(gaussian_fields, ~0u, named("gaussian")),
+                     object_of_fields<GaussianSet>(gaussian_set_fields, ~0u, gaussians)});
     return {{"type", "array"},
             {"description", "Terms that add up; none: constant 1"},
-            {"items", {{"oneOf", Json::array({constant_term, exponential_term, gaussian_term, gaussians_term})}}},
-            {"contains", {{"properties", {{"type", {{"const", "exponential"}}}}}}},
+            {"items", {{"oneOf", terms}}},
+            {"contains", {{"properties", named("exponential")}}},
             {"minContains", 0},
             {"maxContains", BRUME_MAX_DENSITY_TERMS}};
 }
 
-Json medium()
+Json shadow(const char *projection, uint32_t kind, const Json &depth)
 {
-    Json schema = object_of(
-        {{"scattering", described(reference("rgb"), "At unit density [1/m]")},
-         {"absorption", described(reference("rgb"), "At unit density [1/m]")},
-         {"emission", described(reference("rgb"), "Radiance per metre at unit density")},
-         {"g", described(number(ranges::asymmetry), "Mean cosine of the phase function")},
-         {"visibility", described(number(ranges::positive), "[m]; instead of scattering: 3.912 / visibility - absorption")},
-         {"droplet_diameter", described(number(ranges::droplet_diameter), "[um]; instead of g")},
-         {"density", density()},
-         {"noise", described(object_of({{"strength", described(number(ranges::noise_strength), "In radii of each Gaussian")},
-                                        {"scale", described(number(ranges::noise_scale), "Scene units; 1 by default")},
-                                        {"offset", described(reference("vector"), "Scene units; keys animate it")},
-                                        {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", 65535}}}},
-                                       {"strength"}),
-                             "Shifts the view ray before it meets a Gaussian")}});
-    schema["allOf"] = Json::array({not_together("scattering", "visibility"), not_together("g", "droplet_diameter")});
-    return schema;
-}
-
-// A shadow map of one projection; those of points and spots are perspective, those of directional lights orthographic where
-// none is named.
-Json shadow(const std::string &projection, bool device = false)
-{
-    const bool parallel = projection == "orthographic";
-    Json properties{
-        {"file", described({{"type", "string"}},
-                           "Depth picture, relative to the scene file; one per frame with %04d or #### in its name")},
-        {"camera_to_world", described(array_of(array_of(reference("number"), 4), 4),
-                                      "Of the camera that took it; row-major; rigid; looks down -z, +y up")},
-        {"projection", {{"const", projection}}}};
-    std::vector<std::string> required{"file", "camera_to_world"};
-    if (projection == "latlong") {
-        required.push_back("projection");
-        properties["depth"] = {{"const", "ray"}};
-        return described(object_of(properties, required),
-                         "Shadow map: the distance to the scene as seen from the light, all around");
-    }
-    required.push_back(parallel ? "orthographic_width" : "vertical_fov");
-    properties[required.back()] = parallel ? described(number(ranges::positive), "Of the map; scene units")
-                                           : described(reference("field_of_view"), "Of the map's height [degrees]");
-    if (!device) {
-        properties["depth"] = described({{"enum", {"planar", "ray"}}}, "planar by default; in scene units");
-        return described(object_of(properties, required), "Shadow map: the scene's depth as seen from the light");
-    }
-    const Json plane = constant(parallel ? ranges::any : ranges::positive);
-    properties["depth"] = described({{"const", "device"}}, "A depth buffer of 0 to 1");
-    properties["near"] = described(plane, "Where it is 0; scene units");
-    properties["far"] =
-        described(plane, std::string("Where it is 1; scene units") + (parallel ? "" : "; infinite by default"));
-    properties["reversed"] = described({{"type", "boolean"}}, "It is 1 at near and 0 at far");
-    required.insert(required.end(), {"depth", "near"});
-    if (parallel)
-        required.push_back("far");
-    return described(object_of(properties, required), "Shadow map: a depth buffer of the scene as seen from the light");
+    return described(
+        object_of_fields<ShadowText>(shadow_fields, kind, {{"projection", {{"const", projection}}}, {"depth", depth}}),
+        kind == latlong_map   ? "Shadow map: the distance to the scene as seen from the light, all around"
+        : kind & device_kinds ? "Shadow map: a depth buffer of the scene as seen from the light"
+                              : "Shadow map: the scene's depth as seen from the light");
 }
 
 Json lights()
 {
-    const Json type_of_point{{"const", "point"}}, type_of_spot{{"const", "spot"}}, type_of_sun{{"const", "directional"}};
-    const Json position = described(reference("vector"), "Scene units");
-    const Json direction = described(reference("direction"), "Where it shines to");
-    const Json radiant = described(reference("rgb"), "[radiance m^2]: pi r^2 times the radiance of a sphere of radius r");
-    const Json irradiance = described(reference("rgb"), "Irradiance on a surface that faces it");
-    const Json radius = described(reference("not_negative"), "Scene units; 0 by default");
-    const Json angle = described(number(ranges::spot_degrees), "Of the whole cone [degrees]; 45 by default");
-    const Json penumbra =
-        described(reference("fraction"), "Share of the half angle over which it falls off to nothing; .1 by default");
-    const Json distance = described(reference("not_negative"),
-                                    "That its light has come through the constant density; scene units; 0 by default");
+    const Json distances{{"enum", {"planar", "ray"}}}, device{{"const", "device"}};
     const Json of_screen = described({{"const", "screen"}}, "What the picture shows throws shadows, by its depth");
-    const Json perspective{
-        {"oneOf", Json::array({of_screen, shadow("perspective"), shadow("perspective", true), shadow("latlong")})}},
-        parallel{{"oneOf", Json::array({shadow("orthographic"), shadow("orthographic", true)})}};
-    const Json surfaces =
-                   described({{"type", "boolean"}}, "false: nothing of what surfaces show is this light's; true by default"),
-               group = described({{"type", "string"}, {"minLength", 1}},
-                                 "Layer that has this light's share of the picture, as renderers' light groups do");
-    const Json kinds = Json::array({object_of({{"type", type_of_point},
-                                               {"position", position},
-                                               {"intensity", radiant},
-                                               {"radius", radius},
-                                               {"shadow", perspective},
-                                               {"surfaces", surfaces},
-                                               {"group", group}},
-                                              {"type", "position", "intensity"}),
-                                    object_of({{"type", type_of_spot},
-                                               {"position", position},
-                                               {"direction", direction},
-                                               {"intensity", radiant},
-                                               {"radius", radius},
-                                               {"angle", angle},
-                                               {"penumbra", penumbra},
-                                               {"shadow", perspective},
-                                               {"surfaces", surfaces},
-                                               {"group", group}},
-                                              {"type", "position", "direction", "intensity"}),
-                                    object_of({{"type", type_of_sun},
-                                               {"direction", direction},
-                                               {"intensity", irradiance},
-                                               {"distance", distance},
-                                               {"shadow", parallel},
-                                               {"surfaces", surfaces},
-                                               {"group", group}},
-                                              {"type", "direction", "intensity"})});
+    const Json around{{"oneOf", Json::array({of_screen, shadow("perspective", flat_map, distances),
+                                             shadow("perspective", flat_buffer, device),
+                                             shadow("latlong", latlong_map, {{"const", "ray"}})})}},
+        parallel{{"oneOf", Json::array({shadow("orthographic", parallel_map, distances),
+                                        shadow("orthographic", parallel_buffer, device)})}};
+    Json kinds = Json::array();
+    for (uint32_t type = BRUME_LIGHT_POINT; type <= BRUME_LIGHT_DIRECTIONAL; ++type) {
+        Json own = named(light_names[type]);
+        own["shadow"] = type == BRUME_LIGHT_DIRECTIONAL ? parallel : around;
+        own["surfaces"] = {{"type", "boolean"}};
+        own["group"] = {{"type", "string"}, {"minLength", 1}};
+        kinds.push_back(object_of_fields<Light>(light_fields, 1u << type, own));
+    }
     return {{"type", "array"}, {"maxItems", BRUME_MAX_LIGHTS}, {"items", {{"oneOf", kinds}}}};
 }
 
@@ -230,30 +178,20 @@ Json environment()
     Json counts = Json::array();
     for (size_t order = 1; order <= 6; ++order)
         counts.push_back(array_of(array_of(constant(ranges::any), 3), order * order));
-    const Json coefficients{{"anyOf", counts},
-                            {"description", "RGB of real spherical harmonics in world axes: l = 0, 1, ..., m = -l to l"}};
-    const Json file = described({{"type", "string"}}, "Lat-long image, relative to the scene file");
-    const Json up{{"enum", {"y", "z"}}, {"description", "World axis of the image's top; y by default"}};
+    const Json own{{"sh", {{"anyOf", counts}}}, {"up", {{"enum", {"y", "z"}}}}};
     return {{"description", "Distant light from all around"},
-            {"oneOf",
-             Json::array({object_of({{"sh", coefficients}}, {"sh"}), object_of({{"file", file}, {"up", up}}, {"file"})})}};
+            {"oneOf", Json::array({object_of_fields<Environment>(environment_fields, coefficients_kind, own),
+                                   object_of_fields<Environment>(environment_fields, picture_kind, own)})}};
 }
 
 Json quality()
 {
     const Json preset{{"enum", std::vector<std::string>(std::begin(preset_names), std::end(preset_names))}};
-    const Json transmittance =
-        described(constant(ranges::fraction), "Mean of what frames show; 0, the default: taken for dense");
-    const Json detail =
-        described(constant(ranges::detail), "Of frames against themselves blurred 9 x 9; 0, the default: taken for 5");
-    auto asking = [&](const char *name, const Json &schema) {
-        return object_of({{name, schema}, {"transmittance", transmittance}, {"detail", detail}}, {name});
-    };
+    Json kinds = Json::array({preset});
+    for (uint32_t kind : {preset_kind, error_kind, budget_kind})
+        kinds.push_back(object_of_fields<Quality>(quality_fields, kind, {{"preset", preset}}));
     return {{"description", "Largest error or time of a frame, by which plans choose parameters that `effects` leave open"},
-            {"oneOf", Json::array({preset, asking("preset", preset),
-                                   asking("max_error",
-                                          described(constant(ranges::max_error), "Root of relMSE against the references")),
-                                   asking("budget_ms", described(constant(ranges::budget_ms), "Milliseconds a frame"))})}};
+            {"oneOf", kinds}};
 }
 
 Json parameter_schema(const Parameter &parameter)
@@ -297,17 +235,17 @@ Json effects_schema(const EffectRegistry &registry)
 
 std::string scene_schema(const EffectRegistry &effects)
 {
-    Json schema =
-        object_of({{"brume", {{"const", 1}, {"description", "Version of the file format"}}},
-                   {"metres_per_unit", described(constant(ranges::positive), "Length of one scene unit; 1 by default")},
-                   {"camera", camera()},
-                   {"medium", medium()},
-                   {"lights", lights()},
-                   {"environment", environment()},
-                   {"effects", effects_schema(effects)},
-                   {"quality", quality()}},
-                  {"brume"});
-    schema["$defs"] = definitions();
+    Json schema = object_of(
+        {{"brume", {{"const", 1}, {"description", "Version of the file format"}}},
+         {"metres_per_unit", described(constant(ranges::positive), "Length of one scene unit; 1 by default")},
+         {"camera", object_of_fields<Camera>(camera_fields)},
+         {"medium", object_of_fields<Medium>(medium_fields, ~0u,
+                                             {{"density", density()}, {"noise", object_of_fields<Noise>(noise_fields)}})},
+         {"lights", lights()},
+         {"environment", environment()},
+         {"effects", effects_schema(effects)},
+         {"quality", quality()}},
+        {"brume"});
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
     schema["title"] = "Brume scene";
     return schema.dump(2);

@@ -60,6 +60,26 @@ TEST_P(ImageMemory, TrimGivesBackWhatNoPlanHolds)
     EXPECT_EQ(held(), before);
 }
 
+// As docs/integrate.md says of resolutions that change with the frame.
+TEST(PlansOfAnotherSize, TakeTheMemoryThatTheLastOneLeft)
+{
+    Context context = make_context(BRUME_BACKEND_CPU);
+    Scene scene = make_scene(context, foggy);
+    make_plan(context, scene, ray_format(320, 256));
+    brume_context_info before = BRUME_CONTEXT_INFO_INIT, after = BRUME_CONTEXT_INFO_INIT;
+    ASSERT_EQ(brume_context_get_info(context.get(), &before), BRUME_OK);
+    largest_allocation = size_t(320) * 256;  // a picture of one channel takes four times as much
+    for (const auto &[width, height] : {std::pair(300, 240), std::pair(270, 216), std::pair(240, 192)}) {
+        const brume_format format = ray_format(width, height);
+        brume_plan plan = nullptr;
+        EXPECT_EQ(brume_plan_create(scene.get(), &format, &plan), BRUME_OK) << width << ": " << message(context.get());
+        brume_plan_destroy(plan);
+    }
+    largest_allocation = size_t(-1);
+    ASSERT_EQ(brume_context_get_info(context.get(), &after), BRUME_OK);
+    EXPECT_LE(after.host_bytes, before.host_bytes);
+}
+
 TEST(TooLargePlans, SayWhatWasWantedAndHoldNothing)
 {
     Context context = make_context(BRUME_BACKEND_CPU);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/baselines.hpp"
+#include "bench/measure.hpp"
 #include "bench/mip_pyramid.hpp"
 #include "bench/pareto.hpp"
 #include "files.hpp"
@@ -179,6 +180,45 @@ TEST_F(Bench, ListsSettingsThatTheSceneRefuses)
     const json nodes = setting(group, "nodes 0.001, full");
     EXPECT_LT(nodes["against"]["reference"]["error"], 1e-3);
     EXPECT_TRUE(nodes["against"]["truth"].is_null());
+}
+
+// An effect of somebody else's, with parameters of each type.
+TEST_F(Bench, MeasuresWhatAPluginSaysOfItself)
+{
+    fs::create_directory(folder_ / "plugins");
+    fs::copy(BRUME_TEST_PLUGIN, folder_ / "plugins");
+    const std::string folder = (folder_ / "plugins").string();
+    brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
+    desc.backend = BRUME_BACKEND_CPU;
+    desc.plugin_directory = folder.c_str();
+    brume_context context = nullptr;
+    ASSERT_EQ(brume_context_create(&desc, &context), BRUME_OK);
+    const ContextHandle owner(context);
+    const SceneText scene{R"({"brume":1,"camera":{"vertical_fov":50},"medium":{"scattering":0.02},
+        "effects":{"multiscatter":{},"well_behaved":{"masking":false}}})",
+                          "fog.json",
+                          {}};
+    Sample sample;
+    sample.name = "a picture";
+    sample.format.width = sample.format.height = 8;
+    sample.channels = 3;
+    sample.color.assign(3 * 64, 0.5f);
+    sample.depth.assign(64, 7);
+    ASSERT_EQ(effects_to_measure(context, scene, sample), (std::vector<std::string>{"multiscatter", "well_behaved"}));
+
+    const Setting reference = reference_of(context, "well_behaved");
+    EXPECT_EQ(reference.parameters, (Parameters{{"kernel", "reference"}}));
+    const Group group =
+        measure_group(context, scene, sample, make_reference(context, scene, sample, "well_behaved", {}), 1, {});
+    std::vector<std::string> names;
+    for (const Row &row : group.rows)
+        if (row.setting.kind == Kind::kSetting) {
+            EXPECT_EQ(row.refusal, "");
+            EXPECT_EQ(error_of(row.errors.reference.value()), 0) << "it copies";
+            EXPECT_GE(row.ms, 0);
+            names.push_back(row.setting.name);
+        }
+    EXPECT_EQ(names, (std::vector<std::string>{"defaults", "masking false", "kernel paper"}));
 }
 
 TEST_F(Bench, RefusesWhatIsNotThereOrFitsNot)

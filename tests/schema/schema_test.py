@@ -1,4 +1,4 @@
-"""schema_test.py LIBRARY SOURCES: the schema and the parser take the same scenes.
+"""schema_test.py LIBRARY SOURCES: the schema and the parser take the same scenes, and the documentation's table has all keys.
 
 Scenes of the documentation and the samples, random ones made from the schema, and mutations of both. What the schema cannot say
 (UNSAID) the parser may refuse beside it; nothing may be the other way round.
@@ -61,8 +61,8 @@ class Library:
 class Maker:
     """Random instances of a schema."""
 
-    def __init__(self, schema, dice, file):
-        self.definitions, self.dice, self.file = schema["$defs"], dice, file
+    def __init__(self, dice, file):
+        self.dice, self.file = dice, file
 
     def number(self, schema, whole):
         low = schema.get("minimum", schema.get("exclusiveMinimum"))
@@ -97,8 +97,6 @@ class Maker:
             key, lambda: self.make(schema))()
 
     def make(self, schema):
-        if "$ref" in schema:
-            return self.make(self.definitions[schema["$ref"].rsplit("/", 1)[1]])
         for choice in ("anyOf", "oneOf"):
             if choice in schema:
                 return self.make(self.dice.choice(schema[choice]))
@@ -162,6 +160,28 @@ def written(sources):
             yield json.loads(block)
 
 
+def told(page):
+    """Keys of the table of a page, each with what its default is said to be."""
+    return {key: default.strip() for key, default in re.findall(r"^\| `([a-z_.\[\]]+)` \|(.*?)\|", page.read_text(), re.M)}
+
+
+def untold(schema, keys):
+    """What the page's table has not, or has otherwise, of the schema's fields. Defaults in words are left."""
+    for block, path in (("camera", "camera"), ("medium", "medium"), ("environment", "environment"), ("quality", "quality"),
+                        ("lights", "lights[]"), ("density", "density[]")):
+        one = schema["properties"]["medium"]["properties"]["density"] if block == "density" else schema["properties"][block]
+        one = one.get("items", one)
+        for kind in one.get("oneOf", [one]):
+            for key, field in kind.get("properties", {}).items():
+                default = keys.get(f"{path}.{key}")
+                if default is None:
+                    yield f"no row of {path}.{key}"
+                elif default == "required" and key not in kind.get("required", []):
+                    yield f"{path}.{key} is said to be required"
+                elif "default" in field and default and default[0] in "[\"-0123456789" and json.loads(default) != field["default"]:
+                    yield f"{path}.{key}: the default is said to be {default}, and is {field['default']}"
+
+
 def main(library, sources):
     brume = Library(library)
     schema = brume.schema()
@@ -169,9 +189,10 @@ def main(library, sources):
     validator, names, dice = Draft202012Validator(schema), known_names(schema), random.Random(7)
     counts, faults = {(taken, valid): 0 for taken in (True, False) for valid in (True, False)}, []
 
+    faults += untold(schema, told(sources / "docs" / "sequences.md"))
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "puffs.csv").write_text("x,y,z,scale,amplitude\n0,5,1,0.5,0.3\n")
-        maker = Maker(schema, dice, "puffs.csv")
+        maker = Maker(dice, "puffs.csv")
 
         def hold(scene, unsaid):
             refusal = brume.refusal(scene, folder + "/scene.json")
@@ -197,7 +218,7 @@ def main(library, sources):
         print(f"{count} scenes: parser {'takes' if taken else 'refuses'}, schema {'takes' if valid else 'refuses'}")
     print(*faults[:20], sep="\n")
     if faults:
-        sys.exit(f"{len(faults)} scenes in which schema and parser differ")
+        sys.exit(f"{len(faults)} differences of schema, parser and table")
     if wrote < 8 or counts[False, False] < RANDOM_SCENES or counts[True, True] < RANDOM_SCENES:
         sys.exit(f"too little was compared; {wrote} scenes of the documentation and the samples")
 

@@ -163,9 +163,12 @@ std::vector<std::string> effects_to_measure(brume_context context, const SceneTe
 {
     const SettingRun run(context, scene, nullptr, sample);
     std::vector<std::string> effects;
-    for (const Setting &s : settings())
-        if (std::find(effects.begin(), effects.end(), s.effect) == effects.end() && run.runs(s.effect))
-            effects.push_back(s.effect);
+    brume_effect_info info = BRUME_EFFECT_INFO_INIT;
+    for (std::uint32_t e = 0; e < brume_effect_count(context); ++e) {
+        check_request(context, brume_effect_get_info(context, e, &info), "effects");
+        if (!info.refusal && run.runs(info.name))
+            effects.push_back(info.name);
+    }
     return effects;
 }
 
@@ -193,7 +196,7 @@ double median_optical_depth(brume_context context, const SceneText &scene, const
 Reference make_reference(brume_context cpu, const SceneText &scene, const Sample &sample, const std::string &effect,
                          const BenchOptions &options)
 {
-    const Setting setting = reference_of(effect);
+    const Setting setting = reference_of(cpu, effect);
     const auto at = [&](int factor) {
         Reference r{effect, factor == 1 ? sample : reduced(sample, factor), {}, 0};
         SettingRun run(cpu, scene, &setting, r.sample);
@@ -231,9 +234,8 @@ Group measure_group(brume_context context, const SceneText &scene, const Sample 
     group.reference_ms = reference.ms;
     if (reference.sample.truth)
         group.reference_truth = measure(reference.image, *reference.sample.truth, sample.weights);
-    for (const Setting &setting : settings())
-        if (setting.effect == reference.effect)
-            group.rows.emplace_back().setting = setting;
+    for (Setting &setting : settings_of(context, reference.effect))
+        group.rows.emplace_back().setting = std::move(setting);
     measure_settings(context, scene, sample, reference, options.repeat, group.rows);
     const BaselineInput full = baseline_input(context, scene, sample),
                         small = baseline_input(context, scene, reference.sample);

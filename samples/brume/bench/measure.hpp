@@ -48,7 +48,7 @@ struct BenchOptions {
 /// Square root of relMSE.
 double error_of(const Metrics &metrics);
 
-/// Effects of which there are settings and which do something here.
+/// Effects that do something here.
 std::vector<std::string> effects_to_measure(brume_context context, const SceneText &scene, const Sample &sample);
 
 /// Milliseconds of copying the image out of memory rather than out of a cache.

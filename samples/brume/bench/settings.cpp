@@ -1,8 +1,13 @@
 #include "bench/settings.hpp"
 
+#include <sstream>
+
+#include "support/error.hpp"
+
 namespace brume::tool {
 namespace {
 
+// The study of error against time has these two by hand: products of parameters, and what papers have.
 void add_multiscatter(std::vector<Setting> &all)
 {
     const std::string effect = "multiscatter";
@@ -52,6 +57,32 @@ void add_airlight(std::vector<Setting> &all)
                 {effect, tier + ", " + resolution, Kind::kPublished, {{"tier", tier}, {"resolution", resolution}}});
 }
 
+template <class Visit> void for_choices(brume_context context, const std::string &effect, const Visit &visit)
+{
+    brume_effect_info info = BRUME_EFFECT_INFO_INIT;
+    for (std::uint32_t e = 0; e < brume_effect_count(context); ++e) {
+        check_request(context, brume_effect_get_info(context, e, &info), effect);
+        if (info.name != effect || info.refusal)
+            continue;
+        for (std::uint32_t i = 0; i < info.parameter_count; ++i) {
+            brume_parameter_info parameter = BRUME_PARAMETER_INFO_INIT;
+            check_request(context, brume_parameter_get_info(context, info.name, i, &parameter), effect);
+            std::istringstream choices(parameter.type == BRUME_PARAMETER_CHOICE    ? parameter.choices
+                                       : parameter.type == BRUME_PARAMETER_BOOLEAN ? "false|true"
+                                                                                   : "");
+            std::string choice;
+            for (int index = 0; std::getline(choices, choice, '|'); ++index)
+                visit(std::string(parameter.name), choice, index == int(parameter.default_number));
+        }
+    }
+}
+
+// Effects call so what others are measured against; it takes minutes.
+bool is_reference(const std::string &choice)
+{
+    return choice.find("reference") != std::string::npos;
+}
+
 }  // namespace
 
 const char *name_of(Kind kind)
@@ -59,20 +90,31 @@ const char *name_of(Kind kind)
     return kind == Kind::kSetting ? "setting" : kind == Kind::kPublished ? "published" : "baseline";
 }
 
-const std::vector<Setting> &settings()
+std::vector<Setting> settings_of(brume_context context, const std::string &effect)
 {
-    static const std::vector<Setting> all = [] {
-        std::vector<Setting> list;
+    std::vector<Setting> list;
+    if (effect == "multiscatter")
         add_multiscatter(list);
+    else if (effect == "airlight")
         add_airlight(list);
+    if (!list.empty())
         return list;
-    }();
-    return all;
+    list.push_back({effect, "defaults", Kind::kSetting, {}});
+    for_choices(context, effect, [&](const std::string &parameter, const std::string &choice, bool is_default) {
+        if (!is_default && !is_reference(choice))
+            list.push_back({effect, parameter + " " + choice, Kind::kSetting, {{parameter, choice}}});
+    });
+    return list;
 }
 
-Setting reference_of(const std::string &effect)
+Setting reference_of(brume_context context, const std::string &effect)
 {
-    return {effect, "reference", Kind::kSetting, {{effect == "airlight" ? "tier" : "kernel", "reference"}}};
+    Setting setting{effect, "reference", Kind::kSetting, {}};
+    for_choices(context, effect, [&](const std::string &parameter, const std::string &choice, bool) {
+        if (choice == "reference")
+            setting.parameters = {{parameter, choice}};
+    });
+    return setting;
 }
 
 }  // namespace brume::tool

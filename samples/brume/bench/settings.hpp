@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <brume/brume.h>
+
 namespace brume::tool {
 
 enum class Kind {
@@ -22,11 +24,11 @@ struct Setting {
     Parameters parameters;
 };
 
-/// All that is measured, effect by effect, each effect's default first. A setting that the scene or the backend does not
-/// allow is listed with the reason.
-const std::vector<Setting> &settings();
+/// What is measured of an effect, its default first: of effects that no study was made for, each choice of each parameter by
+/// itself. A setting that the scene or the backend does not allow is listed with the reason.
+std::vector<Setting> settings_of(brume_context context, const std::string &effect);
 
-/// The yardstick of an effect.
-Setting reference_of(const std::string &effect);
+/// The yardstick of an effect: the choice that it calls `reference`; without one, its defaults.
+Setting reference_of(brume_context context, const std::string &effect);
 
 }  // namespace brume::tool

@@ -63,8 +63,7 @@ int bench(const BenchCommand &command)
     BenchReport report = report_for(context.get(), scene, sample, command.options);
     const std::vector<std::string> effects = effects_to_measure(context.get(), scene, sample);
     if (effects.empty())
-        throw RequestError(
-            fmt::format("{}: nothing to measure: neither multiscatter nor airlight does anything here", scene.name));
+        throw RequestError(fmt::format("{}: nothing to measure: no effect does anything here", scene.name));
     report.copy_ms = copy_ms(sample, command.options.repeat);
     report.median_optical_depth = median_optical_depth(context.get(), scene, sample);
     for (const std::string &effect : effects) {

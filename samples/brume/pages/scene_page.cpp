@@ -36,14 +36,6 @@ public:
     }
 
 private:
-    Json resolved(const Json &schema) const
-    {
-        if (!schema.contains("$ref"))
-            return schema;
-        const std::string name = schema["$ref"];
-        return _schema["$defs"][name.substr(name.rfind('/') + 1)];
-    }
-
     static bool has_keys(const Json &schema)
     {
         if (schema.contains("properties"))
@@ -75,9 +67,8 @@ private:
         return text;
     }
 
-    std::string type_text(const Json &unresolved) const
+    static std::string type_text(const Json &schema)
     {
-        const Json schema = resolved(unresolved);
         if (schema.contains("const"))
             return plain(schema["const"]);
         std::string text;
@@ -105,7 +96,7 @@ private:
         return type == "number" || type == "integer" ? number_text(schema) : type == "boolean" ? "true or false" : type;
     }
 
-    std::string entry(const std::string &path, const Json &schema) const
+    static std::string entry(const std::string &path, const Json &schema)
     {
         std::string description = schema.value("description", "");
         if (!description.empty() && !description.ends_with('.'))
@@ -125,7 +116,7 @@ private:
         return "";
     }
 
-    std::string keys_of(const std::string &path, const Json &schema) const
+    static std::string keys_of(const std::string &path, const Json &schema)
     {
         std::string text;
         if (schema.contains("items") && has_keys(schema["items"]))

@@ -233,6 +233,23 @@ TEST_F(HostTextures, FramesAskLittle)
     }
 }
 
+// As docs/integrate.md says of resolutions that change with the frame.
+TEST_F(HostTextures, PlansOfAnotherSizeCompileNothing)
+{
+    const Context context(borrowed());
+    const Scene scene(context, scene_text);
+    const auto programs_asked = [&](int32_t smaller) {
+        brume_format other = brume::format(width - smaller, height - smaller);
+        other.depth_kind = BRUME_DEPTH_RAY;
+        const QueryCount count;
+        const Plan plan(scene, other);
+        return QueryCount::of("glGetProgramiv");
+    };
+    EXPECT_GT(programs_asked(0), 0) << "nothing is counted";
+    for (const int32_t smaller : {1, 7, 24, 40})
+        EXPECT_EQ(programs_asked(smaller), 0) << smaller << " pixels less a side";
+}
+
 TEST_F(HostTextures, TrustedTexturesGiveTheSameBits)
 {
     Plan plan = make_plan(borrowed());

@@ -1,18 +1,15 @@
-#include "scene/scene_numbers.h"
+#include "scene_file/field_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "base/json_node.h"
 #include "scene/scene_check.h"
-#include "base/scene_ranges.h"
 
 namespace brume {
 namespace {
-
-constexpr double degree = 0.017453292519943295;
 
 Number read_keys(const JsonNode &keys, const Range &range)
 {
@@ -49,6 +46,8 @@ double read_constant(const JsonNode &node, const Range &range)
     return value;
 }
 
+namespace {
+
 Number read_number(const JsonNode &node, const Range &range)
 {
     if (node.value().as<double>())
@@ -59,59 +58,69 @@ Number read_number(const JsonNode &node, const Range &range)
     return read_keys(node.get("keys"), range);
 }
 
-Number3 read_vector(const JsonNode &node, const Range &range)
+}  // namespace
+
+void FieldReader::operator()(uint32_t &to) const
 {
+    const double value = read_constant(node, range);
+    if (value != std::floor(value))
+        node.expected("a whole " + range.describe());
+    to = uint32_t(value);
+}
+
+void FieldReader::operator()(Number &to) const
+{
+    to = read_number(node, range);
+    for (auto &key : to.keys)
+        key.second *= traits & degrees ? degree : 1.0;
+}
+
+void FieldReader::operator()(std::array<Number, 2> &to) const
+{
+    node.check_array_size(2, "an array of 2 numbers");
+    to = {read_number(node.item(0), range), read_number(node.item(1), range)};
+}
+
+void FieldReader::operator()(Number3 &to) const
+{
+    if (traits & color && !node.value().as<JsonValue::Array>()) {
+        if (!node.value().as<double>() && !node.value().as<JsonValue::Object>())
+            node.expected(range.describe() + ", [r, g, b], or {\"keys\": [[frame, value], ...]}");
+        to.fill(read_number(node, range));
+        return;
+    }
     node.check_array_size(3, "an array of 3 numbers");
-    return {read_number(node.item(0), range), read_number(node.item(1), range), read_number(node.item(2), range)};
-}
-
-Number3 read_direction(const JsonNode &node)
-{
-    const Number3 direction = read_vector(node, ranges::any);
-    if (std::all_of(direction.begin(), direction.end(), always_zero))
+    to = {read_number(node.item(0), range), read_number(node.item(1), range), read_number(node.item(2), range)};
+    if (traits & direction && std::all_of(to.begin(), to.end(), always_zero))
         node.fail("(0, 0, 0); expected a vector that is not zero");
-    return direction;
 }
 
-Number3 read_rgb(const JsonNode &node, const Range &range)
-{
-    if (node.value().as<JsonValue::Array>())
-        return read_vector(node, range);
-    if (!node.value().as<double>() && !node.value().as<JsonValue::Object>())
-        node.expected(range.describe() + ", [r, g, b], or {\"keys\": [[frame, value], ...]}");
-    const Number grey = read_number(node, range);
-    return {grey, grey, grey};
-}
-
-std::array<Number, 16> read_matrix(const JsonNode &node)
+// A rigid motion.
+void FieldReader::operator()(Matrix &to) const
 {
     const std::string what = "4 rows of 4 numbers";
-    std::array<Number, 16> matrix;
     std::set<double> frames;
     node.check_array_size(4, what);
     for (size_t row = 0; row < 4; ++row) {
         node.item(row).check_array_size(4, what);
         for (size_t column = 0; column < 4; ++column) {
-            const Number &element = matrix[4 * row + column] = read_number(node.item(row).item(column), ranges::any);
+            const Number &element = to[4 * row + column] = read_number(node.item(row).item(column), range);
             for (const auto &key : element.keys)
                 frames.insert(key.first);
         }
     }
     for (double frame : frames) {
         std::array<double, 16> values;
-        std::transform(matrix.begin(), matrix.end(), values.begin(), [&](const Number &n) { return n.at(frame); });
+        std::transform(to.begin(), to.end(), values.begin(), [&](const Number &n) { return n.at(frame); });
         if (const std::string defect = rigid_defect(values); !defect.empty())
             node.fail(fmt::format("{}{}; expected a rigid motion: orthonormal columns, determinant 1, last row 0 0 0 1",
                                   defect, frames.size() > 1 ? fmt::format(" at frame {}", frame) : ""));
     }
-    return matrix;
 }
 
-Number in_radians(Number degrees)
+void FieldReader::operator()(std::optional<Matrix> &to) const
 {
-    for (auto &key : degrees.keys)
-        key.second *= degree;
-    return degrees;
+    (*this)(to.emplace());
 }
 
 }  // namespace brume
