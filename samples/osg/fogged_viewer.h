@@ -123,6 +123,7 @@ public:
         for (int i = 0; i < 16; ++i)
             source->addChild(
                 new osg::ShapeDrawable(new osg::Cylinder({i % 2 ? 5.0f : -5.0f, 6.0f * float(i / 2), 2}, 0.6f, 4)));
+        source->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
         source->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
         viewer.setSceneData(source);
         viewer.realize();

@@ -60,6 +60,7 @@ TEST(OsgSample, FramesAreFoggedAndStateIsUnharmed)
         EXPECT_GT(fogged[frame][sky], 1.2f * clear[frame][sky]);
         // The ground before the camera is near.
         const size_t ground = size_t(2 * width + width / 2) * 4;
+        EXPECT_LT(clear[frame][ground], 0.9f) << "is not lit, but white";
         EXPECT_NEAR(fogged[frame][ground], clear[frame][ground], 0.5f * clear[frame][ground]);
     }
     EXPECT_NE(fogged[0], fogged[1]);
