@@ -32,7 +32,7 @@ microseconds=$((($(date +%s%N) - begin) / 1000))
 while [ "$killed" -lt "$kills" ]; do
   fog killed --skip-existing &
   child=$!
-  after=$(((RANDOM * 32768 + RANDOM) % (microseconds < 900000 ? microseconds : 900000)))
+  after=$(((RANDOM * 32768 + RANDOM) % (microseconds * 3 / 4)))
   sleep "$((after / 1000000)).$(printf '%06d' $((after % 1000000)))"
   if kill -9 "$child" 2>/dev/null; then
     killed=$((killed + 1))
