@@ -94,6 +94,6 @@ endif()
 # For who writes programs.
 file(GLOB pages docs/*.md)
 install(FILES README.md ${pages} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libbrume-dev COMPONENT development)
-install(DIRECTORY samples/minimal_c samples/gl_texture samples/third_party_plugin
+install(DIRECTORY samples/minimal_c samples/gl_texture samples/ogre samples/osg samples/third_party_plugin
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libbrume-dev/examples COMPONENT development)
 include(CPack)
