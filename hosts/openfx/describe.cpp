@@ -21,6 +21,12 @@ Status describe(EffectHandle effect)
     properties.set(property::multi_resolution, 1);
     properties.set(property::multiple_depths, 0);
     properties.set(property::multiple_aspects, 0);
+#ifdef BRUME_GL
+    if (suites.gl) {
+        properties.set(property::gl_supported, "true");
+        properties.set(property::gl_depths, pixels::floating);
+    }
+#endif
     return ok;
 }
 

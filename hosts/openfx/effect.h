@@ -14,5 +14,7 @@ ofx::Status regions_of_interest(ofx::EffectHandle effect, Properties in, Propert
 ofx::Status clip_preferences(ofx::EffectHandle effect, Properties out);
 ofx::Status is_identity(ofx::EffectHandle effect, Properties in, Properties out);
 ofx::Status render(ofx::EffectHandle effect, Properties in);
+ofx::Status attach_gl(ofx::EffectHandle effect);
+ofx::Status detach_gl(ofx::EffectHandle effect);
 
 }  // namespace openfx

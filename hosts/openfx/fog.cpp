@@ -52,10 +52,11 @@ brume_format format(const Settings &settings, const Frame &frame)
 
 }  // namespace
 
-Fog::Fog(brume_progress_callback progress, void *user)
+Fog::Fog(uint32_t backend, brume_progress_callback progress, void *user)
 {
     brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
-    desc.backend = BRUME_BACKEND_CPU;
+    desc.backend = backend;
+    desc.gl_context = BRUME_GL_BORROWED;
     desc.threads = std::min(granted_threads(), 1024u);
     desc.progress = progress;
     desc.progress_user = user;

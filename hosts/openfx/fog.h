@@ -32,7 +32,8 @@ struct Frame {
 
 class Fog {
 public:
-    Fog(brume_progress_callback progress, void *user);
+    // On GL in the context that is current, which is the host's.
+    Fog(uint32_t backend, brume_progress_callback progress, void *user);
 
     // Plans, unless the last plan is for these.
     void prepare(const Settings &settings, const Frame &frame);

@@ -19,6 +19,7 @@ Status fetch_suites(const Host *host)
     fetch(suites.persistent_messages, suite::messages, 2);
     fetch(suites.messages, suite::messages, 1);
     fetch(suites.threads, suite::threads, 1);
+    fetch(suites.gl, suite::gl, 1);
     if (!suites.messages)
         suites.messages = suites.persistent_messages;
     return suites.properties && suites.effects && suites.parameters ? ok : missing_host_feature;

@@ -22,6 +22,7 @@ struct Suites {
     const ofx::MessageSuite *messages = nullptr;             // of version 1 or 2; null: none
     const ofx::MessageSuite *persistent_messages = nullptr;  // of version 2; null: none
     const ofx::ThreadSuite *threads = nullptr;               // null: none
+    const ofx::GlSuite *gl = nullptr;                        // null: none
 };
 
 // Between the host's load and unload.

@@ -1,40 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "effect.h"
-#include "fog.h"
+#include "instance.h"
 
 namespace openfx {
 
 using namespace ofx;
-
-namespace {
-
-struct Instance {
-    explicit Instance(EffectHandle effect)
-        : effect(effect), filter(properties_of(effect).text(property::context) == context::filter)
-    {
-    }
-
-    const EffectHandle effect;
-    const bool filter;
-    std::mutex mutex;  // a host may ask on its main thread while it renders on another
-    std::optional<Fog> fog;
-
-    Fog &get_fog()
-    {
-        if (!fog)
-            fog.emplace(
-                [](void *user, double) { return int32_t(suites.effects->abort(static_cast<EffectHandle>(user)) != 0); },
-                effect);
-        return *fog;
-    }
-};
 
 Instance &instance_of(EffectHandle effect)
 {
@@ -65,6 +41,8 @@ Frame frame_of(EffectHandle effect, Properties in, const RectI &bounds, double p
     }
     return frame;
 }
+
+namespace {
 
 // The top row first.
 brume_image packed(std::vector<float> &values, const RectI &bounds, int channels)
@@ -227,7 +205,10 @@ Status render(EffectHandle effect, Properties in)
     Instance &instance = instance_of(effect);
     const std::lock_guard lock(instance.mutex);
     try {
-        fog_frame(instance, in);
+        if (in.integer(property::gl_enabled, 0) == 0)
+            fog_frame(instance, in);
+        else if (const Status status = fog_textures(instance, in); status != ok)
+            return status;
     } catch (const LibraryError &error) {
         if (error.status == BRUME_ERROR_CANCELLED)
             return ok;  // the host drops what it did not wait for

@@ -7,7 +7,9 @@ namespace ofx {
 
 using Status = int;
 constexpr Status ok = 0, failed = 1, fatal = 2, unknown = 3, missing_host_feature = 4, unsupported = 5, exists = 6,
-                 out_of_memory = 8, bad_handle = 9, bad_index = 10, bad_value = 11, reply_default = 14;
+                 out_of_memory = 8, bad_handle = 9, bad_index = 10, bad_value = 11, reply_default = 14,
+                 gl_out_of_memory = 1001,
+                 gl_render_failed = 1002;  // of the last the host renders the same frame on the CPU
 
 using PropertySet = struct PropertySetTag *;
 using EffectHandle = struct EffectTag *;
@@ -126,13 +128,21 @@ struct ThreadSuite {
     Status (*mutex_try_lock)(MutexHandle);
 };
 
+struct GlSuite {
+    // No format: the host's choice; no region: all.
+    Status (*clip_load_texture)(ClipHandle, Time time, const char *format, const RectD *region, PropertySet *texture);
+    Status (*clip_free_texture)(PropertySet texture);
+    Status (*flush_resources)();
+};
+
 }  // extern "C"
 
 constexpr const char *api = "OfxImageEffectPluginAPI";
 
 namespace suite {
 constexpr const char *properties = "OfxPropertySuite", *effects = "OfxImageEffectSuite", *parameters = "OfxParameterSuite",
-                     *messages = "OfxMessageSuite", *threads = "OfxMultiThreadSuite";
+                     *messages = "OfxMessageSuite", *threads = "OfxMultiThreadSuite",
+                     *gl = "OfxImageEffectOpenGLRenderSuite";
 }
 
 namespace action {
@@ -145,7 +155,11 @@ constexpr const char *load = "OfxActionLoad", *unload = "OfxActionUnload", *desc
                      *clip_preferences = "OfxImageEffectActionGetClipPreferences",
                      *is_identity = "OfxImageEffectActionIsIdentity", *render = "OfxImageEffectActionRender",
                      *begin_sequence = "OfxImageEffectActionBeginSequenceRender",
-                     *end_sequence = "OfxImageEffectActionEndSequenceRender";
+                     *end_sequence = "OfxImageEffectActionEndSequenceRender",
+                     *gl_attached = "OfxActionOpenGLContextAttached",
+                     // The interface's header has it with a k, unlike any other; its documentation without.
+                         *gl_detached = "kOfxActionOpenGLContextDetached",
+                     *gl_detached_as_documented = "OfxActionOpenGLContextDetached";
 }
 
 namespace context {
@@ -188,7 +202,9 @@ constexpr const char *supported_contexts = "OfxImageEffectPropSupportedContexts"
                      *multiple_aspects = "OfxImageEffectPropSupportsMultipleClipPARs",
                      *project_size = "OfxImageEffectPropProjectSize", *project_offset = "OfxImageEffectPropProjectOffset",
                      *frame_varying = "OfxImageEffectFrameVarying";
+constexpr const char *gl_supported = "OfxImageEffectPropOpenGLRenderSupported", *gl_depths = "OfxOpenGLPropPixelDepth";
 // of actions
+constexpr const char *gl_enabled = "OfxImageEffectPropOpenGLEnabled";
 constexpr const char *render_scale = "OfxImageEffectPropRenderScale", *render_window = "OfxImageEffectPropRenderWindow",
                      *region_of_definition = "OfxImageEffectPropRegionOfDefinition",
                      *region_of_interest = "OfxImageEffectPropRegionOfInterest",
@@ -198,6 +214,8 @@ constexpr const char *optional = "OfxImageClipPropOptional", *connected = "OfxIm
                      *components = "OfxImageEffectPropComponents", *depth = "OfxImageEffectPropPixelDepth",
                      *pixel_aspect = "OfxImagePropPixelAspectRatio", *data = "OfxImagePropData",
                      *bounds = "OfxImagePropBounds", *row_bytes = "OfxImagePropRowBytes";
+constexpr const char *texture = "OfxImageEffectPropOpenGLTextureIndex",
+                     *texture_target = "OfxImageEffectPropOpenGLTextureTarget";
 // of parameters
 constexpr const char *initial = "OfxParamPropDefault", *least = "OfxParamPropMin", *most = "OfxParamPropMax",
                      *display_least = "OfxParamPropDisplayMin", *display_most = "OfxParamPropDisplayMax",

@@ -45,6 +45,10 @@ ofx::Status act(const char *name, ofx::EffectHandle effect, Properties in, Prope
         return is_identity(effect, in, out);
     if (is(ofx::action::render))
         return render(effect, in);
+    if (is(ofx::action::gl_attached))
+        return attach_gl(effect);
+    if (is(ofx::action::gl_detached) || is(ofx::action::gl_detached_as_documented))
+        return detach_gl(effect);
     return ofx::reply_default;
 }
 

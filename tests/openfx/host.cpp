@@ -134,6 +134,7 @@ void Instance::connect(const std::string &name, Picture &picture)
     const ofx::RectI &bounds = picture.bounds;
     const double x = picture.aspect / scale.x, y = 1 / scale.y;
     clip.picture = &picture;
+    clip.is_output = name == ofx::clip::output;
     clip.region = {bounds.x1 * x, bounds.y1 * y, bounds.x2 * x, bounds.y2 * y};
     clip.properties.put<int>(ofx::property::connected, {1});
     clip.properties.put<double>(ofx::property::pixel_aspect, {picture.aspect});
@@ -150,6 +151,8 @@ ofx::Status Instance::act_on_frame(const char *action, const ofx::RectI &window,
     Set in;
     in.put<double>(ofx::property::time, {time});
     in.put<double>(ofx::property::render_scale, {scale.x, scale.y});
+    if (on_gl)
+        in.put<int>(ofx::property::gl_enabled, {1});
     in.put<int>(ofx::property::render_window, {window.x1, window.y1, window.x2, window.y2});
     return bundle.act(action, &effect, &in, out);
 }

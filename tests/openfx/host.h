@@ -43,6 +43,9 @@ public:
     double aspect = 1;
     std::string depth = ofx::pixels::floating;
     int handed_out = 0;
+    // Of its textures: GL_TEXTURE_2D, and 0 for the one in floats that its channels have.
+    unsigned target = 0x0DE1, format = 0;
+    int textures = 0;  // loaded so far
 
 private:
     bool downwards_;
@@ -63,6 +66,7 @@ struct Clip {
     Set properties;
     Picture *picture = nullptr;
     ofx::RectD region{};
+    bool is_output = false;
 };
 
 // A descriptor, or an instance.
@@ -80,6 +84,7 @@ struct Options {
     bool messages = true;
     bool threads = true;
     bool parameters = true;
+    bool gl = false;  // offers textures of the context that is current
 };
 
 // The plugin in the memory of this process, from its load to its unload. One at a time: a library is in a process once.
@@ -124,6 +129,7 @@ public:
     const Bundle &bundle;
     mutable Effect effect;
     ofx::PointD scale{1, 1};
+    bool on_gl = false;
     ofx::Status created;
 
 private:

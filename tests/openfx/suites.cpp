@@ -6,6 +6,9 @@
 #include "host.h"
 
 namespace host {
+
+extern const ofx::GlSuite gl_suite;
+
 namespace {
 
 using namespace ofx;
@@ -253,6 +256,10 @@ const void *fetch(const char *name, int version, const Options &options)
         return &parameters;
     if (wanted == suite::threads && options.threads)
         return &threads;
+#ifdef BRUME_GL
+    if (wanted == suite::gl && options.gl)
+        return &gl_suite;
+#endif
     return nullptr;
 }
 
