@@ -68,7 +68,13 @@ Status load(ClipHandle handle, Time, const char *, const RectD *, PropertySet *t
     GLuint name = 0;
     const Transfer transfer;
     glCreateTextures(picture.target, 1, &name);
-    glTextureStorage2D(name, 1, format, width, height);
+    if (picture.mipmapped) {
+        glTextureStorage2D(name, 1, format, width, height);
+    } else {
+        glBindTexture(picture.target, name);
+        glTexImage2D(picture.target, 0, GLint(format), width, height, 0, layout(picture), GL_FLOAT, nullptr);
+        glBindTexture(picture.target, 0);
+    }
     glTextureSubImage2D(name, 0, 0, 0, width, height, layout(picture), GL_FLOAT, packed(picture).data());
     auto *set = new Set(*picture.hand_out());
     set->values.erase(property::data);

@@ -177,10 +177,27 @@ TEST_F(OpenFXGl, WhatItCannotDoIsLeftToTheCpu)
     expect_left_to_the_cpu();
     std::remove(file.c_str());
     instance.set_text("sceneFile", "");
-    Picture narrow({0, 0, 40, 48}, 1);
-    instance.connect("Depth", narrow);
+    expect_as_on_the_cpu(instance);
+}
+
+TEST_F(OpenFXGl, RegionsThatDifferAreLeftToTheCpu)
+{
+    const ofx::RectI elsewhere{2, 0, 66, 48};
+    Picture distance(elsewhere, 1), wanted(elsewhere, 4);
+    instance.connect("Depth", distance);
     expect_left_to_the_cpu();
     instance.connect("Depth", depth);
+    instance.connect("Output", wanted);
+    instance.on_gl = true;
+    EXPECT_EQ(instance.render(whole), ofx::gl_render_failed);
+    instance.connect("Output", output);
+    EXPECT_EQ(instance.render({0, 0, 64, 40}), ofx::gl_render_failed);
+    expect_as_on_the_cpu(instance);
+}
+
+TEST_F(OpenFXGl, DepthNeedsNoMipmaps)
+{
+    depth.mipmapped = false;
     expect_as_on_the_cpu(instance);
 }
 

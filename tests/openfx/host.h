@@ -45,7 +45,8 @@ public:
     int handed_out = 0;
     // Of its textures: GL_TEXTURE_2D, and 0 for the one in floats that its channels have.
     unsigned target = 0x0DE1, format = 0;
-    int textures = 0;  // loaded so far
+    bool mipmapped = true;  // or its filter wants mipmaps that it does not have
+    int textures = 0;       // loaded so far
 
 private:
     bool downwards_;
