@@ -10,12 +10,12 @@ using namespace fog;
 
 TEST(Quality, PredictedErrorsHold)
 {
-    const ErrorStudy study(cpu(), 2026, 100, 56);
+    const ErrorStudy study(cpu(), 2026, 200, 56);
     const Predicted *worst = &study.all[0];
     for (const Predicted &p : study.all)
         if (p.measured / p.predicted > worst->measured / worst->predicted)
             worst = &p;
-    printf("100 scenes: predictions hold in %.1f %%, median of predicted / measured %.2f; worst %.3g where %.3g was "
+    printf("200 scenes: predictions hold in %.1f %%, median of predicted / measured %.2f; worst %.3g where %.3g was "
            "predicted (%s)\n",
            100 * study.share_that_holds(), study.median_ratio(), worst->measured, worst->predicted, worst->quality.c_str());
     EXPECT_GE(study.share_that_holds(), 0.95);
