@@ -267,6 +267,52 @@ class Media(AddonTest):
             bpy.ops.brume.take_mist()
 
 
+class ShadowMaps(AddonTest):
+    """Maps that come with an export, of a spot that shines across the view and a board in its way."""
+
+    def start(self):
+        scene = self.scene(48, 27)
+        shots.camera(scene, (0, -12, 0), (math.radians(90), 0, 0))
+        spot = shots.lamp(scene, "SPOT", 20000, (-6, 0, 0), (0, math.radians(-90), 0), name="key")
+        spot.data.spot_size, spot.data.shadow_soft_size = math.radians(40), 0.01
+        board = shots.plane(scene, size=3, location=(-2, 0, 0))
+        board.rotation_euler = (0, math.radians(90), 0)
+        bpy.ops.brume.setup()
+        scene.brume.visibility, scene.brume.shadow_size = 60, 64
+        bpy.ops.render.render(animation=True)
+        return scene, spot, board
+
+    def fog(self, name):
+        """Exports; what the scene file says, and the fogged frames."""
+        bpy.ops.brume.export(filepath=self.path(name + ".json"))
+        subprocess.run([TOOL, "run", self.path(name + ".json"), self.path("clear", "shot.####.exr"), "-o", self.path(name + ".####.exr"),
+                        "--backend", "cpu", "--quiet"], check=True)
+        with open(self.path(name + ".json"), encoding="utf-8") as file:
+            made = json.load(file)
+        return made, [rgb(exr.read(self.path(f"{name}.{number:04}.exr")))[..., 1] for number in (1, 2)]
+
+    def test_behind_an_occluder_the_fog_is_darker(self):
+        scene, _, board = self.start()
+        _, plain = self.fog("plain")
+        scene.brume.shadow_maps = True
+        made, mapped = self.fog("mapped")
+        self.assertEqual(made["lights"][0]["shadow"]["file"], "mapped_shadows/key.exr")
+        self.assertEqual(os.listdir(self.path("mapped_shadows")), ["key.exr"])
+        for before, after in zip(plain, mapped):
+            # The board is at column 13, the spot left of the picture.
+            self.assertTrue((after[12:15, 28:40] < 0.8 * before[12:15, 28:40]).all())
+            np.testing.assert_allclose(after[12:15, 9:12], before[12:15, 9:12], rtol=0.01)
+        # The board goes away in the second frame.
+        for frame, z in ((1, 0), (2, 40)):
+            board.location.z = z
+            board.keyframe_insert("location", frame=frame)
+        made, moved = self.fog("moved")
+        self.assertEqual(made["lights"][0]["shadow"]["file"], "moved_shadows/key.####.exr")
+        self.assertEqual(sorted(os.listdir(self.path("moved_shadows"))), ["key.0001.exr", "key.0002.exr"])
+        np.testing.assert_allclose(moved[0][12:15, 28:40], mapped[0][12:15, 28:40], rtol=0.05)
+        np.testing.assert_allclose(moved[1][12:15, 28:40], plain[1][12:15, 28:40], rtol=0.05)
+
+
 class Frames(AddonTest):
     """Two frames, rendered and fogged."""
 
