@@ -312,6 +312,61 @@ class ShadowMaps(AddonTest):
         np.testing.assert_allclose(moved[0][12:15, 28:40], mapped[0][12:15, 28:40], rtol=0.05)
         np.testing.assert_allclose(moved[1][12:15, 28:40], plain[1][12:15, 28:40], rtol=0.05)
 
+    def state(self, scene):
+        """What an export must leave as it was."""
+        render, image = scene.render, scene.render.image_settings
+        return (scene.camera, scene.frame_current, scene.frame_subframe, render.filepath, render.engine, render.resolution_x, render.resolution_y,
+                image.file_format, image.color_depth, image.exr_codec, scene.cycles.samples, scene.world, scene.brume.enabled,
+                scene.frame_start, scene.frame_end, bpy.context.scene, [layer.use for layer in scene.view_layers],
+                *(sorted(thing.name for thing in things) for things in (bpy.data.scenes, bpy.data.objects, bpy.data.cameras)))
+
+    def test_moving_lamps_suns_and_what_gets_no_map(self):
+        scene, spot, _ = self.start()
+        shots.lamp(scene, "SUN", 1, (0, 0, 9), name="sun")
+        shots.lamp(scene, "POINT", 10, name="bulb")
+        shots.lamp(scene, "AREA", 10, name="panel")
+        for frame, y in ((1, 0), (2, 30)):
+            spot.location.y = y
+            spot.keyframe_insert("location", frame=frame)
+        scene.brume.shadow_maps, scene.brume.enabled = True, True
+        scene.frame_set(1, subframe=0.25)
+        before = self.state(scene)
+        made, _ = self.fog("fog")
+        self.assertEqual(self.state(scene), before)
+        self.assertEqual(module("shadows").without(scene), ["bulb", "panel"])
+        self.assertEqual([light["type"] for light in made["lights"] if "shadow" in light], ["spot", "directional"])
+        key, sun = (light["shadow"] for light in made["lights"] if "shadow" in light)
+        self.assertEqual((key["file"], sun["file"]), ("fog_shadows/key.####.exr", "fog_shadows/sun.exr"))
+        np.testing.assert_allclose([pair[1] for pair in key["camera_to_world"][1][3]["keys"]], [0, 30])
+        # The board is 4 m before the lamp, which sees nothing from where it goes.
+        depths = [json.loads(subprocess.run([TOOL, "info", "--json", self.path("fog_shadows", f"key.000{number}.exr")], check=True,
+                                            capture_output=True).stdout)["depth"] for number in (1, 2)]
+        self.assertAlmostEqual(depths[0]["nearest"], 4, 3)
+        self.assertEqual((depths[0]["far_pixels"] < 64 * 64, depths[1]["far_pixels"]), (True, 64 * 64))
+        self.assertEqual(os.listdir(self.path("clear")).count("fogged"), 0)
+
+    def test_cancelled_maps_leave_all_as_it_was(self):
+        scene, _, board = self.start()
+        for frame, z in ((1, 0), (2, 40)):
+            board.location.z = z
+            board.keyframe_insert("location", frame=frame)
+        scene.brume.shadow_maps = True
+        scene.frame_set(2)
+        before = self.state(scene)
+
+        def cancel(copy, *_):
+            if copy.frame_current == 2:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        bpy.app.handlers.render_pre.append(cancel)
+        try:
+            with self.assertRaisesRegex(RuntimeError, "key.0002.exr: the shadow map was not rendered: it was cancelled"):
+                bpy.ops.brume.export(filepath=self.path("fog.json"))
+        finally:
+            bpy.app.handlers.render_pre.remove(cancel)
+        self.assertEqual(self.state(scene), before)
+        self.assertEqual(os.listdir(self.folder), ["clear"])
+
 
 class Frames(AddonTest):
     """Two frames, rendered and fogged."""
@@ -577,6 +632,7 @@ class Troubles(AddonTest):
     def test_the_panel_draws(self):
         scene = self.start()
         scene.brume.falloff, scene.brume.sky = 1, "DISTANCE"
+        scene.brume.shadow_maps = True
 
         class Layout:
             """Takes what panels say, and checks that there is such a thing."""
@@ -602,7 +658,7 @@ class Troubles(AddonTest):
         module("rendering").state.fail("a problem")
         module("panel").BrumePanel.draw(panel, bpy.context)
         module("panel").BrumePanel.draw_header(panel, bpy.context)
-        self.assertEqual(panel.layout.said, ["a problem"])
+        self.assertEqual(panel.layout.said, ["No shadow maps, being points or areas: lamp", "a problem"])
 
 
 def main():
