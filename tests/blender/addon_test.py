@@ -267,6 +267,108 @@ class Media(AddonTest):
             bpy.ops.brume.take_mist()
 
 
+class ShadowMaps(AddonTest):
+    """Maps that come with an export, of a spot that shines across the view and a board in its way."""
+
+    def start(self):
+        scene = self.scene(48, 27)
+        shots.camera(scene, (0, -12, 0), (math.radians(90), 0, 0))
+        spot = shots.lamp(scene, "SPOT", 20000, (-6, 0, 0), (0, math.radians(-90), 0), name="key")
+        spot.data.spot_size, spot.data.shadow_soft_size = math.radians(40), 0.01
+        board = shots.plane(scene, size=3, location=(-2, 0, 0))
+        board.rotation_euler = (0, math.radians(90), 0)
+        bpy.ops.brume.setup()
+        scene.brume.visibility, scene.brume.shadow_size = 60, 64
+        bpy.ops.render.render(animation=True)
+        return scene, spot, board
+
+    def fog(self, name):
+        """Exports; what the scene file says, and the fogged frames."""
+        bpy.ops.brume.export(filepath=self.path(name + ".json"))
+        subprocess.run([TOOL, "run", self.path(name + ".json"), self.path("clear", "shot.####.exr"), "-o", self.path(name + ".####.exr"),
+                        "--backend", "cpu", "--quiet"], check=True)
+        with open(self.path(name + ".json"), encoding="utf-8") as file:
+            made = json.load(file)
+        return made, [rgb(exr.read(self.path(f"{name}.{number:04}.exr")))[..., 1] for number in (1, 2)]
+
+    def test_behind_an_occluder_the_fog_is_darker(self):
+        scene, _, board = self.start()
+        _, plain = self.fog("plain")
+        scene.brume.shadow_maps = True
+        made, mapped = self.fog("mapped")
+        self.assertEqual(made["lights"][0]["shadow"]["file"], "mapped_shadows/key.exr")
+        self.assertEqual(os.listdir(self.path("mapped_shadows")), ["key.exr"])
+        for before, after in zip(plain, mapped):
+            # The board is at column 13, the spot left of the picture.
+            self.assertTrue((after[12:15, 28:40] < 0.8 * before[12:15, 28:40]).all())
+            np.testing.assert_allclose(after[12:15, 9:12], before[12:15, 9:12], rtol=0.01)
+        # The board goes away in the second frame.
+        for frame, z in ((1, 0), (2, 40)):
+            board.location.z = z
+            board.keyframe_insert("location", frame=frame)
+        made, moved = self.fog("moved")
+        self.assertEqual(made["lights"][0]["shadow"]["file"], "moved_shadows/key.####.exr")
+        self.assertEqual(sorted(os.listdir(self.path("moved_shadows"))), ["key.0001.exr", "key.0002.exr"])
+        np.testing.assert_allclose(moved[0][12:15, 28:40], mapped[0][12:15, 28:40], rtol=0.05)
+        np.testing.assert_allclose(moved[1][12:15, 28:40], plain[1][12:15, 28:40], rtol=0.05)
+
+    def state(self, scene):
+        """What an export must leave as it was."""
+        render, image = scene.render, scene.render.image_settings
+        return (scene.camera, scene.frame_current, scene.frame_subframe, render.filepath, render.engine, render.resolution_x, render.resolution_y,
+                image.file_format, image.color_depth, image.exr_codec, scene.cycles.samples, scene.world, scene.brume.enabled,
+                scene.frame_start, scene.frame_end, bpy.context.scene, [layer.use for layer in scene.view_layers],
+                *(sorted(thing.name for thing in things) for things in (bpy.data.scenes, bpy.data.objects, bpy.data.cameras)))
+
+    def test_moving_lamps_suns_and_what_gets_no_map(self):
+        scene, spot, _ = self.start()
+        shots.lamp(scene, "SUN", 1, (0, 0, 9), name="sun")
+        shots.lamp(scene, "POINT", 10, name="bulb")
+        shots.lamp(scene, "AREA", 10, name="panel")
+        for frame, y in ((1, 0), (2, 30)):
+            spot.location.y = y
+            spot.keyframe_insert("location", frame=frame)
+        scene.brume.shadow_maps, scene.brume.enabled = True, True
+        scene.frame_set(1, subframe=0.25)
+        before = self.state(scene)
+        made, _ = self.fog("fog")
+        self.assertEqual(self.state(scene), before)
+        self.assertEqual(module("shadows").without(scene), ["bulb", "panel"])
+        self.assertEqual([light["type"] for light in made["lights"] if "shadow" in light], ["spot", "directional"])
+        key, sun = (light["shadow"] for light in made["lights"] if "shadow" in light)
+        self.assertEqual((key["file"], sun["file"]), ("fog_shadows/key.####.exr", "fog_shadows/sun.exr"))
+        np.testing.assert_allclose([pair[1] for pair in key["camera_to_world"][1][3]["keys"]], [0, 30])
+        # The board is 4 m before the lamp, which sees nothing from where it goes.
+        depths = [json.loads(subprocess.run([TOOL, "info", "--json", self.path("fog_shadows", f"key.000{number}.exr")], check=True,
+                                            capture_output=True).stdout)["depth"] for number in (1, 2)]
+        self.assertAlmostEqual(depths[0]["nearest"], 4, 3)
+        self.assertEqual((depths[0]["far_pixels"] < 64 * 64, depths[1]["far_pixels"]), (True, 64 * 64))
+        self.assertEqual(os.listdir(self.path("clear")).count("fogged"), 0)
+
+    def test_cancelled_maps_leave_all_as_it_was(self):
+        scene, _, board = self.start()
+        for frame, z in ((1, 0), (2, 40)):
+            board.location.z = z
+            board.keyframe_insert("location", frame=frame)
+        scene.brume.shadow_maps = True
+        scene.frame_set(2)
+        before = self.state(scene)
+
+        # A cancelled render leaves no file; Blender takes one SIGINT only, which another test sends.
+        def cancel(copy, *_):
+            if copy.frame_current == 2:
+                os.unlink(copy.render.frame_path(frame=2))
+
+        bpy.app.handlers.render_write.append(cancel)
+        try:
+            with self.assertRaisesRegex(RuntimeError, "key.0002.exr: the shadow map was not rendered: it was cancelled"):
+                bpy.ops.brume.export(filepath=self.path("fog.json"))
+        finally:
+            bpy.app.handlers.render_write.remove(cancel)
+        self.assertEqual(self.state(scene), before)
+        self.assertEqual(os.listdir(self.folder), ["clear"])
+
+
 class Frames(AddonTest):
     """Two frames, rendered and fogged."""
 
@@ -531,6 +633,7 @@ class Troubles(AddonTest):
     def test_the_panel_draws(self):
         scene = self.start()
         scene.brume.falloff, scene.brume.sky = 1, "DISTANCE"
+        scene.brume.shadow_maps = True
 
         class Layout:
             """Takes what panels say, and checks that there is such a thing."""
@@ -556,7 +659,7 @@ class Troubles(AddonTest):
         module("rendering").state.fail("a problem")
         module("panel").BrumePanel.draw(panel, bpy.context)
         module("panel").BrumePanel.draw_header(panel, bpy.context)
-        self.assertEqual(panel.layout.said, ["a problem"])
+        self.assertEqual(panel.layout.said, ["No shadow maps, being points or areas: lamp", "a problem"])
 
 
 def main():

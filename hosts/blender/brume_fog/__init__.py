@@ -14,7 +14,7 @@ import importlib
 import sys
 
 # Blender enables an add-on that was disabled without importing its modules anew.
-_NAMES = ("medium", "export", "tool", "properties", "rendering", "operators", "panel")
+_NAMES = ("medium", "export", "shadows", "tool", "properties", "rendering", "operators", "panel")
 for _name in _NAMES:
     if f"{__name__}.{_name}" in sys.modules:
         importlib.reload(sys.modules[f"{__name__}.{_name}"])

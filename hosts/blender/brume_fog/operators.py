@@ -5,21 +5,30 @@ import os
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
-from . import export, medium, rendering, tool
+from . import export, medium, rendering, shadows, tool
 
 _FAILURES = (export.ExportError, tool.ToolError, medium.MediumError, OSError)
 
 
-def shot(scene):
-    """The scene file of the scene's frames, keyed. The scene is at its frame again afterwards."""
-    frame, snapshots = scene.frame_current, {}
+def write_shot(scene, path):
+    """The scene file of the scene's frames, keyed, and its shadow maps beside it. The scene is at its frame again afterwards."""
+    frame, subframe, snapshots, moves = scene.frame_current, scene.frame_subframe, {}, {}
+    mapped = scene.brume.use_lights and scene.brume.shadow_maps
     try:
         for number in range(scene.frame_start, scene.frame_end + 1, scene.frame_step):
             scene.frame_set(number)
-            snapshots[number] = export.snapshot(scene, bpy.context.evaluated_depsgraph_get())
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            snapshots[number] = export.snapshot(scene, depsgraph)
+            if mapped:
+                moves[number] = shadows.Frame(scene, depsgraph)
     finally:
-        scene.frame_set(frame)
-    return export.scene_file(scene, snapshots)
+        scene.frame_set(frame, subframe=subframe)
+    if mapped:
+        shadows.add(scene, snapshots, moves, os.path.splitext(os.path.abspath(path))[0] + "_shadows")
+    made = export.scene_file(scene, snapshots)
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(made, file, indent=1)
+        file.write("\n")
 
 
 def frame_pattern(scene):
@@ -77,11 +86,12 @@ class Export(Reporting, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def run(self, context):
-        made = shot(context.scene)
-        with open(bpy.path.abspath(self.filepath), "w", encoding="utf-8") as file:
-            json.dump(made, file, indent=1)
-            file.write("\n")
+        scene = context.scene
+        write_shot(scene, bpy.path.abspath(self.filepath))
         self.report({"INFO"}, f"wrote {self.filepath}")
+        left_out = shadows.without(scene) if scene.brume.use_lights and scene.brume.shadow_maps else []
+        if left_out:
+            self.report({"INFO"}, f"no shadow maps, being points or areas: {', '.join(left_out)}")
 
 
 class FogFrames(Reporting, bpy.types.Operator):
@@ -97,8 +107,7 @@ class FogFrames(Reporting, bpy.types.Operator):
         output = rendering.foggy_path(scene, source)
         os.makedirs(os.path.dirname(output), exist_ok=True)
         scene_file = os.path.join(os.path.dirname(output), "fog.json")
-        with open(scene_file, "w", encoding="utf-8") as file:
-            json.dump(shot(scene), file, indent=1)
+        write_shot(scene, scene_file)
         frames = f"{scene.frame_start}-{scene.frame_end}x{scene.frame_step}"
         self._run = tool.Run(tool.arguments(scene, scene_file, source, output) + ["--frames", frames, "--keep-going"])
         if bpy.app.background:

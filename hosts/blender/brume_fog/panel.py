@@ -1,7 +1,7 @@
 """Properties > Render > Fog."""
 import bpy
 
-from . import tool
+from . import shadows, tool
 from .rendering import state
 
 
@@ -34,6 +34,12 @@ class BrumePanel(bpy.types.Panel):
         layout.prop(fog, "use_lights")
         if fog.use_lights:
             layout.prop(fog, "sun_distance")
+            layout.prop(fog, "shadow_maps")
+            if fog.shadow_maps:
+                layout.prop(fog, "shadow_size")
+                left_out = shadows.without(context.scene)
+                if left_out:
+                    layout.label(text=f"No shadow maps, being points or areas: {', '.join(left_out)}", icon="INFO")
         layout.prop(fog, "sky")
         if fog.sky == "DISTANCE":
             layout.prop(fog, "sky_distance")

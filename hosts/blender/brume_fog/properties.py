@@ -1,6 +1,6 @@
 """What the panel shows, kept with the scene, and the preferences."""
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
 
 class BrumeFog(bpy.types.PropertyGroup):
@@ -21,6 +21,10 @@ class BrumeFog(bpy.types.PropertyGroup):
     use_lights: BoolProperty(name="Lamps glow", default=True, description="Lamps of the scene light the fog")
     sun_distance: FloatProperty(name="Sun's way", default=50, min=0, subtype="DISTANCE", unit="LENGTH",
                                 description="Length of fog that a sun's light has come through")
+    shadow_maps: BoolProperty(name="Shadow maps", default=False,
+                              description="Render what stands in the light of spots and suns, for scene files and frames that are fogged afterwards")
+    shadow_size: IntProperty(name="Map size", default=1024, min=16, max=8192, subtype="PIXEL",
+                             description="Width and height of a shadow map; what shall throw a shadow is two pixels wide or more")
     sky: EnumProperty(name="Sky", default="FOG", items=(
         ("FOG", "Infinitely far", "Fog that has no end hides the sky"), ("KEEP", "Without fog", "The sky stays as it is"),
         ("DISTANCE", "At a distance", "There is fog before the sky, but not without end")))
