@@ -191,6 +191,17 @@ TEST(Scattered, OfEveryLightIsTheSum)
     }
 }
 
+// Its distances are not the grid's.
+TEST(Scattered, ALampThatIsOffIsAsNone)
+{
+    const Frame frame = lit_frame(48, 32);
+    Json lit = of_all_orders(avenue()), beside = lit;
+    beside["lights"].push_back(point_light({0.5, 1, -12}, 0, 0.1));
+    const Picture exact = airlight_of(cpu(), lit, frame), got = airlight_of(cpu(), beside, frame);
+    const Worst worst = compare(got, exact, 1e-4);
+    EXPECT_LT(worst.error, 1e-5) << worst.describe();
+}
+
 TEST(Scattered, AnyNumberOfThreadsBitForBit)
 {
     const Frame frame = lit_frame(51, 34);

@@ -35,6 +35,11 @@ struct Lamp {
     double distance, width, weight;
 };
 
+double power_of(const brume_plugin_light &light)
+{
+    return std::min((double(light.intensity[0]) + light.intensity[1] + light.intensity[2]) / 3, 1e30);
+}
+
 struct Extent {
     double from = 1e30, to = 0;
 };
@@ -93,15 +98,20 @@ std::vector<float> place_distances(const brume_plugin_scene &scene, int width, i
     const double end =
         std::clamp(terms ? maps::end_of_terms(scene, std::min(gaussians.to, 1e9)) : std::min(gaussians.to, 1e9), 1e-3, 1e9);
     std::vector<Lamp> lamps;
-    double all = 0;
+    double all = 0, brightest = 0;
+    for (uint32_t l = 0; l < scene.light_count; ++l)
+        if (scene.lights[l].type != BRUME_LIGHT_DIRECTIONAL)
+            brightest = std::max(brightest, power_of(scene.lights[l]));
     for (uint32_t l = 0; l < scene.light_count; ++l) {
         const brume_plugin_light &light = scene.lights[l];
         const vec3 position(light.position[0], light.position[1], light.position[2]);
         const double distance = length(position);
-        if (light.type == BRUME_LIGHT_DIRECTIONAL || !(distance < end))
+        if (light.type == BRUME_LIGHT_DIRECTIONAL || !(distance < end) || !(power_of(light) > 0))
             continue;
+        // Lamps that fade leave little by little: one that is switched off is as one that is not there.
+        const double bright = std::min(100 * (power_of(light) / brightest), 1.0);
         lamps.push_back({distance, std::max({0.5 * angle * distance, double(light.radius), 1e-4 * end}),
-                         seen(*scene.camera, position, width, height)});
+                         bright * seen(*scene.camera, position, width, height)});
         all += lamps.back().weight;
     }
     // t = first (e^u - 1): growing steps, as dense as the sum says.
@@ -158,7 +168,7 @@ std::vector<float> peaks_of(const brume_plugin_scene &scene)
     std::vector<double> weights(1 + scene.light_count, 0.0);
     for (uint32_t l = 0; l < scene.light_count; ++l) {
         const brume_plugin_light &light = scene.lights[l];
-        const double power = std::min((double(light.intensity[0]) + light.intensity[1] + light.intensity[2]) / 3, 1e30);
+        const double power = power_of(light);
         if (light.type == BRUME_LIGHT_DIRECTIONAL) {
             weights[0] += power;
             continue;
