@@ -12,24 +12,22 @@
 #include "base/error.h"
 #include "gl/egl_context.h"
 
-#define FUNCTIONS(F)                                                                                                        \
-    F(ActiveTexture)                                                                                                        \
-    F(AttachShader) F(BindBuffer) F(BindImageTexture) F(BindSampler) F(BindTexture) F(BindTextureUnit) F(ClearTexImage)     \
-        F(CompileShader) F(CopyImageSubData) F(CreateProgram) F(CreateProgramPipelines) F(CreateQueries) F(CreateSamplers)  \
-            F(CreateShader) F(CreateShaderProgramv) F(CreateTextures) F(DebugMessageControl) F(DeleteProgram)               \
-                F(DeleteProgramPipelines) F(DeleteQueries) F(DeleteSamplers) F(DeleteShader) F(DeleteTextures)              \
-                    F(DetachShader) F(DispatchCompute) F(GetError) F(GetFloatv) F(GetIntegeri_v) F(GetIntegerv)             \
-                        F(GetObjectLabel) F(GetProgramInfoLog) F(GetProgramInterfaceiv) F(GetProgramResourceName)           \
-                            F(GetProgramResourceiv) F(GetProgramiv) F(GetQueryObjectui64v) F(GetShaderInfoLog)              \
-                                F(GetShaderiv) F(GetString) F(GetTextureLevelParameteriv) F(GetTextureParameteriv)          \
-                                    F(GetTextureSubImage) F(IsProgramPipeline) F(IsTexture) F(LinkProgram) F(MemoryBarrier) \
-                                        F(ObjectLabel) F(PauseTransformFeedback) F(PixelStorei) F(PixelTransferf)           \
-                                            F(PopDebugGroup) F(ProgramUniform1fv) F(ProgramUniform1i) F(ProgramUniform1iv)  \
-                                                F(ProgramUniform2fv) F(ProgramUniform2iv) F(ProgramUniform3fv)              \
-                                                    F(ProgramUniform3iv) F(ProgramUniform4fv) F(ProgramUniform4iv)          \
-                                                        F(PushDebugGroup) F(QueryCounter) F(ResumeTransformFeedback)        \
-                                                            F(SamplerParameteri) F(ShaderSource) F(TextureStorage2D)        \
-                                                                F(TextureSubImage2D) F(UseProgram)
+// clang-format off
+#define FUNCTIONS(F) \
+    F(ActiveTexture) F(AttachShader) F(BindBuffer) F(BindImageTexture) F(BindSampler) F(BindTexture) \
+    F(BindTextureUnit) F(ClearTexImage) F(CompileShader) F(CopyImageSubData) F(CreateProgram) \
+    F(CreateProgramPipelines) F(CreateQueries) F(CreateSamplers) F(CreateShader) F(CreateShaderProgramv) \
+    F(CreateTextures) F(DebugMessageControl) F(DeleteProgram) F(DeleteProgramPipelines) F(DeleteQueries) \
+    F(DeleteSamplers) F(DeleteShader) F(DeleteTextures) F(DetachShader) F(DispatchCompute) F(GetError) F(GetFloatv) \
+    F(GetIntegeri_v) F(GetIntegerv) F(GetObjectLabel) F(GetProgramInfoLog) F(GetProgramInterfaceiv) \
+    F(GetProgramResourceName) F(GetProgramResourceiv) F(GetProgramiv) F(GetQueryObjectui64v) F(GetShaderInfoLog) \
+    F(GetShaderiv) F(GetString) F(GetTextureLevelParameteriv) F(GetTextureParameteriv) F(GetTextureSubImage) \
+    F(IsProgramPipeline) F(IsTexture) F(LinkProgram) F(MemoryBarrier) F(ObjectLabel) F(PauseTransformFeedback) \
+    F(PixelStorei) F(PixelTransferf) F(PopDebugGroup) F(ProgramUniform1fv) F(ProgramUniform1i) F(ProgramUniform1iv) \
+    F(ProgramUniform2fv) F(ProgramUniform2iv) F(ProgramUniform3fv) F(ProgramUniform3iv) F(ProgramUniform4fv) \
+    F(ProgramUniform4iv) F(PushDebugGroup) F(QueryCounter) F(ResumeTransformFeedback) F(SamplerParameteri) \
+    F(ShaderSource) F(TextureStorage2D) F(TextureSubImage2D) F(UseProgram)
+// clang-format on
 
 #define DEFINE(name) decltype(epoxy_gl##name) epoxy_gl##name = nullptr;
 extern "C" {
