@@ -21,13 +21,22 @@ PURE float share_by_method(IN(SurfaceSettings) settings, sampler2D table, float 
     return r.along + r.aside / max(cosine, least_cosine);
 }
 
-// 1 where the light's shadow map lets its light onto the surface, or it has none.
+// 1 where the light's shadow map lets its light onto the surface, or it has none. Asked for a texel's width off the surface, on the side
+// that it faces: where light grazes it, the map's depth is not that of the point but of the texel's centre, far before or behind it.
 PURE float lit_by_map(IN(Camera) camera, int shadowed, SHADOW_MAP_IMAGES, IN(Surface) surface, int light)
 {
     float distance = length(surface.point);
     if (shadowed == 0 || distance <= R(0.0))
         return R(1.0);
     ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadowed, light, surface.point / distance, R(1.01) * distance);
+    if (ray.kind == 0)
+        return R(1.0);
+    float width = ray.texel;
+    if (ray.kind == shadow_perspective || ray.kind == shadow_latlong)
+        width *= length(shadow_place(ray, distance));
+    vec3 point = surface.point + width * surface.normal;
+    distance = max(length(point), R(1e-30));
+    ray = shadow_ray(camera, SHADOW_MAP_PASSED, shadowed, light, point / distance, R(1.01) * distance);
     return ray.kind == 0 || is_lit(shadow_maps, ray, distance) ? R(1.0) : R(0.0);
 }
 

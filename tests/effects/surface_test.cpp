@@ -167,6 +167,34 @@ TEST_P(SurfaceOn, WhatIsInALightsShadowHasNoShareOfIt)
     }
 }
 
+// A floor that a lamp grazes, in the lamp's map of nothing but the floor.
+TEST_P(SurfaceOn, WhatALampGrazesIsNotInItsOwnShadow)
+{
+    const int w = 64, h = 48, side = 128;
+    const double tangent = std::tan(M_PI / 6);
+    Picture color(w, h, 3, 1), depth(w, h, 1, std::numeric_limits<float>::infinity()),
+        map(side, side, 1, std::numeric_limits<float>::infinity());
+    Json lights = Json::array({point_light({0, -0.6, -20}, 50), point_light({0, 5, 2}, 50)});
+    Json scene = relit_scene({{"scattering", 0.02}, {"absorption", 0.05}}, lights);
+    scene["camera"]["vertical_fov"] = 60;
+    for (int y = h / 2 + 3; y < h; ++y)
+        for (int x = 0; x < w; ++x)
+            *depth.at(x, y) = float(1 / (tangent * (2 * (y + 0.5) / h - 1)));
+    for (int y = side / 2; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            *map.at(x, y) = float(0.4 / (tangent * (2 * (y + 0.5) / side - 1)));
+    const Picture lit = relit(context(), scene, color, depth);
+    scene["lights"][0]["shadow"] = {{"file", "lamp.exr"},
+                                    {"vertical_fov", 60},
+                                    {"camera_to_world", {{-1, 0, 0, 0}, {0, 1, 0, -0.6}, {0, 0, -1, -20}, {0, 0, 0, 1}}}};
+    const Picture mapped = relit(context(), scene, color, depth, {{"shadow", map}});
+    int dark = 0, all = 0;
+    for (int y = h / 2 + 4; y < h; ++y)
+        for (int x = 0; x < w; ++x, ++all)
+            dark += std::abs(*mapped.at(x, y) - *lit.at(x, y)) > 1e-5f;
+    EXPECT_EQ(dark, 0) << "of " << all;
+}
+
 // What stands in a light's way tells nothing of whether surfaces are lit or shine.
 TEST_P(SurfaceOn, AShadowMapAloneWakesNothing)
 {
