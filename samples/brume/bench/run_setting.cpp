@@ -8,18 +8,9 @@ namespace {
 /// What a scene file says of the effect would make another setting of it.
 void reset(brume_context context, brume_scene scene, const std::string &effect)
 {
-    brume_effect_info info = BRUME_EFFECT_INFO_INIT;
-    for (std::uint32_t e = 0; e < brume_effect_count(context); ++e) {
-        check_request(context, brume_effect_get_info(context, e, &info), effect);
-        if (info.name != effect || info.refusal)
-            continue;
-        for (std::uint32_t i = 0; i < info.parameter_count; ++i) {
-            brume_parameter_info parameter = BRUME_PARAMETER_INFO_INIT;
-            check_request(context, brume_parameter_get_info(context, info.name, i, &parameter), effect);
-            check_request(context, brume_scene_set_number(scene, info.name, parameter.name, parameter.default_number),
-                          effect);
-        }
-    }
+    for (const brume_parameter_info &parameter : parameters_of(context, effect))
+        check_request(context, brume_scene_set_number(scene, effect.c_str(), parameter.name, parameter.default_number),
+                      effect);
 }
 
 template <class Visit> void for_entries(brume_context context, brume_plan plan, const Visit &visit)

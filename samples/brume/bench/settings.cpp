@@ -59,21 +59,13 @@ void add_airlight(std::vector<Setting> &all)
 
 template <class Visit> void for_choices(brume_context context, const std::string &effect, const Visit &visit)
 {
-    brume_effect_info info = BRUME_EFFECT_INFO_INIT;
-    for (std::uint32_t e = 0; e < brume_effect_count(context); ++e) {
-        check_request(context, brume_effect_get_info(context, e, &info), effect);
-        if (info.name != effect || info.refusal)
-            continue;
-        for (std::uint32_t i = 0; i < info.parameter_count; ++i) {
-            brume_parameter_info parameter = BRUME_PARAMETER_INFO_INIT;
-            check_request(context, brume_parameter_get_info(context, info.name, i, &parameter), effect);
-            std::istringstream choices(parameter.type == BRUME_PARAMETER_CHOICE    ? parameter.choices
-                                       : parameter.type == BRUME_PARAMETER_BOOLEAN ? "false|true"
-                                                                                   : "");
-            std::string choice;
-            for (int index = 0; std::getline(choices, choice, '|'); ++index)
-                visit(std::string(parameter.name), choice, index == int(parameter.default_number));
-        }
+    for (const brume_parameter_info &parameter : parameters_of(context, effect)) {
+        std::istringstream choices(parameter.type == BRUME_PARAMETER_CHOICE    ? parameter.choices
+                                   : parameter.type == BRUME_PARAMETER_BOOLEAN ? "false|true"
+                                                                               : "");
+        std::string choice;
+        for (int index = 0; std::getline(choices, choice, '|'); ++index)
+            visit(std::string(parameter.name), choice, index == int(parameter.default_number));
     }
 }
 
@@ -88,6 +80,22 @@ bool is_reference(const std::string &choice)
 const char *name_of(Kind kind)
 {
     return kind == Kind::kSetting ? "setting" : kind == Kind::kPublished ? "published" : "baseline";
+}
+
+std::vector<brume_parameter_info> parameters_of(brume_context context, const std::string &effect)
+{
+    std::vector<brume_parameter_info> all;
+    brume_effect_info info = BRUME_EFFECT_INFO_INIT;
+    for (std::uint32_t e = 0; e < brume_effect_count(context); ++e) {
+        check_request(context, brume_effect_get_info(context, e, &info), effect);
+        if (info.name != effect || info.refusal)
+            continue;
+        for (std::uint32_t i = 0; i < info.parameter_count; ++i) {
+            all.push_back(BRUME_PARAMETER_INFO_INIT);
+            check_request(context, brume_parameter_get_info(context, info.name, i, &all.back()), effect);
+        }
+    }
+    return all;
 }
 
 std::vector<Setting> settings_of(brume_context context, const std::string &effect)

@@ -24,6 +24,9 @@ struct Setting {
     Parameters parameters;
 };
 
+/// Of the effect of this name; none where it was refused.
+std::vector<brume_parameter_info> parameters_of(brume_context context, const std::string &effect);
+
 /// What is measured of an effect, its default first: of effects that no study was made for, each choice of each parameter by
 /// itself. A setting that the scene or the backend does not allow is listed with the reason.
 std::vector<Setting> settings_of(brume_context context, const std::string &effect);
