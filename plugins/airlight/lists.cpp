@@ -12,11 +12,8 @@ namespace {
 brume_status refresh_environment(const brume_services &services, brume_host host, const brume_plugin_scene &scene,
                                  State &state)
 {
-    state.values.clear();
-    for (uint32_t i = 0; i < scene.environment_count; ++i)
-        state.values.insert(state.values.end(),
-                            {scene.environment[i][0], scene.environment[i][1], scene.environment[i][2], 0.0f});
-    return upload(services, host, upload_environment, 4, state.values, state.environment);
+    return upload(services, host, upload_environment, 4, brume::maths_float::environment_of(scene).values,
+                  state.environment);
 }
 
 brume_status refresh_lists(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,

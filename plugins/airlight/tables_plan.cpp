@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "state.h"
 #include "tables.h"
 #include "uploads.h"
@@ -13,7 +11,7 @@ brume_status plan_tables(const brume_services &services, brume_host host, const 
             return s;
     if (!state.environment_scatters)
         return BRUME_OK;
-    state.environment_order = int(std::lround(std::sqrt(double(scene.environment_count))));
+    state.environment_order = brume::maths_float::environment_order(scene);
     return upload(services, host, upload_environment_table, 4, brume::airlight::environment_table(),
                   state.environment_table);
 }

@@ -9,6 +9,11 @@
 namespace surface {
 namespace {
 
+constexpr brume_layer_info transfer_layer(const char *name, const char *help)
+{
+    return {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, name, help};
+}
+
 constexpr brume_layer_info layer_table[] = {
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "normal", "where surfaces face; without it, as depth has it"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT, 3, 0, "light_group",
@@ -18,6 +23,14 @@ constexpr brume_layer_info layer_table[] = {
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 3, 0, "specular",
      "of glossy reflection; with albedo and roughness, lamps' highlights dim and widen"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 1, 0, "roughness", "of glossy reflection, 0 to 1; 1: there is none"},
+    transfer_layer("transfer_0",
+                   "SH coefficients 0 to 2 of what a point of albedo 1 sends out under a sky of each harmonic: soft "
+                   "shadows of the light that the medium brings; beside albedo, the first 1, 2, 3 or all 6 layers"),
+    transfer_layer("transfer_1", "coefficients 3 to 5 of the same"),
+    transfer_layer("transfer_2", "coefficients 6 to 8 of the same"),
+    transfer_layer("transfer_3", "coefficients 9 to 11 of the same"),
+    transfer_layer("transfer_4", "coefficients 12 to 14 of the same"),
+    {sizeof(brume_layer_info), BRUME_LAYER_INPUT, 1, 0, "transfer_5", "coefficient 15 of the same"},
     {sizeof(brume_layer_info), BRUME_LAYER_INPUT | BRUME_LAYER_OF_LIGHT | BRUME_LAYER_ANY_SIZE, 1, 0, "shadow",
      "depth as seen from the light, where brume_light.shadow_kind says: what is in its shadow has no share of it"},
     {sizeof(brume_layer_info), BRUME_LAYER_OUTPUT, 3, 0, "surface",
@@ -59,6 +72,7 @@ private:
     const char *why_not() const;
     brume_status plan_normals(double pixels);
     brume_status explain_material();
+    brume_status plan_transfer(double pixels, double of_light);
     brume_status plan_method();
     bool has_shadows() const;
     brume_status plan_groups(double pixels, double of_light);
@@ -130,6 +144,36 @@ brume_status Planner::explain_material()
     return entry(false, "highlights", "no layers specular and roughness: highlights count as diffuse", 0, 0);
 }
 
+// Degrees of which the first layers bring all coefficients.
+int transfer_order(const uint32_t *given)
+{
+    int layers = 0;
+    while (layers < 6 && given[layer_transfer + layers])
+        ++layers;
+    return layers == 6 ? 4 : std::min(layers, 3);
+}
+
+brume_status Planner::plan_transfer(double pixels, double of_light)
+{
+    const uint32_t *given = request_.layers + layer_transfer;
+    if (std::none_of(given, given + 6, [](uint32_t there) { return there != 0; }))
+        return BRUME_OK;
+    const int order = transfer_order(request_.layers);
+    if (order == 0)
+        return entry(false, "transfer", "no layer transfer_0; expected the first 1, 2, 3 or all 6 of them", 0, 0);
+    if (!request_.layers[layer_albedo])
+        return entry(false, "transfer", "the layers transfer_0 to transfer_5 count with a layer albedo only", 0, 0);
+    if (state_->method != Method::calibrated && state_->method != Method::psf)
+        return entry(false, "transfer", "methods sun and reference have no spherical harmonics of what arrives", 0, 0);
+    state_->transfer = order;
+    if (brume_status s = image("surface lit", state_->lit[1]))
+        return s;
+    return entry(true, "transfer",
+                 std::to_string(order) + (order == 1 ? " degree" : " degrees") +
+                     " of what surfaces send on: soft shadows of the light that the medium brings",
+                 pixels * (4 + 16 + 16 + 16 + 16 * order), scene_.light_count * pixels * of_light);
+}
+
 brume_status Planner::plan_method()
 {
     if (state_->method == Method::reference && request_.backend != BRUME_BACKEND_CPU)
@@ -177,8 +221,9 @@ brume_status Planner::plan_groups(double pixels, double of_light)
     for (int i = 0; i < 2; ++i) {
         if (brume_status s = image("surface rest", state_->rest[i]))
             return s;
-        if (brume_status s = image("surface lit", state_->lit[i]))
-            return s;
+        if (!state_->lit[i])
+            if (brume_status s = image("surface lit", state_->lit[i]))
+                return s;
     }
     return entry(true, "group", "each light's own layer", scene_.light_count * pixels * (5 * 16 + 4 + 16),
                  scene_.light_count * pixels * of_light);
@@ -204,6 +249,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     state_->shadowed = has_shadows();
     state_->material = request_.layers[layer_albedo] != 0;
     state_->sky = scene_.environment_count > 0;
+    if (brume_status s = plan_transfer(pixels, of_light))
+        return s;
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
     if (!followed)

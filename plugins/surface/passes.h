@@ -18,6 +18,28 @@ namespace normals {
 enum Slot { depth, normals, slot_count };
 }
 
+namespace transfer {
+enum Slot {
+    depth,
+    normals,
+    lights,
+    ungrouped,
+    gaussians,
+    environment,
+    in_axes,
+    table,
+    albedo,
+    transfer_0,
+    transfer_1,
+    transfer_2,
+    transfer_3,
+    transfer_4,
+    transfer_5,
+    brought,
+    slot_count
+};
+}
+
 namespace group {
 enum Slot {
     rest,
@@ -61,6 +83,7 @@ enum Slot {
 }
 
 brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+brume_status transfer_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status compose_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status group_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last);

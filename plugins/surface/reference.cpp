@@ -150,7 +150,7 @@ brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first
                 return double(narrow::lit_by_map(camera, world.around.shadowed, SHADOW_MAP_PASSED, point, int(l))) *
                        clear_irradiance(surface, world.lights[l]);
             };
-            auto shares = [&](size_t l) { return at(ungrouped, int(l % 1024), int(l / 1024))[0] != 0; };
+            auto shares = [&](size_t l) { return at(ungrouped, int(l % 1024), int(l / 1024))[0] == part_ungrouped; };
             for (size_t l = 0; l < world.lights.size(); ++l)
                 if (shares(l))
                     all += irradiance(l);

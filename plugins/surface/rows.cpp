@@ -54,6 +54,31 @@ brume_status group_pixels(const brume_plugin_rows *call, int32_t first, int32_t 
     });
 }
 
+brume_status transfer_pixels(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    using namespace brume::maths_float;
+    using namespace brume_pixels;
+    const Constants &constants = constants_of(*call);
+    const Medium medium = medium_of(*call->scene);
+    const LampColours colours = lamp_colours(medium);
+    const Camera camera = camera_of(*call->scene);
+    const brume_plugin_pixels *slots = call->slots;
+    const Texture lights = texture_of(slots[transfer::lights]), ungrouped = texture_of(slots[transfer::ungrouped]),
+                  gaussians = texture_of(slots[transfer::gaussians]), environment = texture_of(slots[transfer::environment]),
+                  in_axes = texture_of(slots[transfer::in_axes]), table = texture_of(slots[transfer::table]);
+    return for_pixels(*call, first, last, [&](int x, int y) {
+        const Surface surface = surface_of(camera, constants.settings, pixel_centre(x, y), *at(slots[transfer::depth], x, y),
+                                           vec3(load(slots[transfer::normals], x, y)));
+        Transfer given{};
+        for (int i = 0; i < layers_of_transfer(constants.settings.transfer); ++i)
+            given.of[i] = i < 5 ? finite_or_zero(vec3(load(slots[transfer::transfer_0 + i], x, y)))
+                                : finite_or_zero(vec3(*at(slots[transfer::transfer_5], x, y)));
+        const vec3 brought = brought_by_transfer(medium, colours, camera, constants.settings, SURFACE_PASSED, in_axes,
+                                                 surface, vec3(load(slots[transfer::albedo], x, y)), given);
+        store(slots[transfer::brought], x, y, vec4(brought, 1.0f));
+    });
+}
+
 brume_status compose_pixels(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     using namespace brume::maths_float;
@@ -86,7 +111,7 @@ brume_status compose_pixels(const brume_plugin_rows *call, int32_t first, int32_
 }
 
 struct Rows {
-    brume_rows_function normals, group, compose;
+    brume_rows_function normals, transfer, group, compose;
 };
 
 #define BRUME_LANES_BODY "rows.inc"
@@ -97,6 +122,14 @@ struct Rows {
 brume_status normals_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     return BRUME_OF_THIS_MACHINE(rows).normals(call, first, last);
+}
+
+brume_status transfer_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
+{
+    const brume_plugin_scene &scene = *call->scene;
+    if (needs_pixels(constants_of(*call), scene.lights, scene.lights + scene.light_count))
+        return transfer_pixels(call, first, last);
+    return BRUME_OF_THIS_MACHINE(rows).transfer(call, first, last);
 }
 
 brume_status group_rows(const brume_plugin_rows *call, int32_t first, int32_t last)

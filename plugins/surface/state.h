@@ -14,6 +14,8 @@ enum Layer {
     layer_albedo,
     layer_specular,
     layer_roughness,
+    layer_transfer,  // the first of them
+    layer_last_transfer = layer_transfer + 5,
     layer_shadow,
     layer_surface,
     layer_count
@@ -21,7 +23,7 @@ enum Layer {
 enum Product { product_lights, product_gaussians, product_density_rgb, product_light_shadows, product_count };
 
 // Of the data images.
-enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_table };
+enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_turned, upload_table };
 
 // Of more Gaussians than these the light's way is not followed through: each costs every pixel and lamp.
 constexpr uint32_t most_gaussians = 256;
@@ -36,6 +38,7 @@ struct State {
     // Before and after one lamp's own layer, by turns.
     brume_plugin_image rest[2] = {};
     brume_plugin_image lit[2] = {};
+    int transfer = 0;  // degrees that frames bring of the surfaces' transfer
 
     bool shadowed = false;  // some light has a shadow map
     bool material = false;  // frames bring albedo
@@ -43,11 +46,14 @@ struct State {
 
     brume_plugin_image table = nullptr;  // the method's
     brume_plugin_image ungrouped = nullptr, environment = nullptr;
-    std::vector<float> ungrouped_values, environment_values;
+    brume_plugin_image turned = nullptr;  // the environment in the transfer's axes
+    std::vector<float> ungrouped_values, environment_values, turned_values;
 
     brume_pass normals_pass = nullptr;
-    brume_pass group_pass = nullptr;
-    brume_pass compose_pass = nullptr;
+    // By whether lights are lamps alone: software OpenGL runs both sides of branches, so that every lamp would pay for suns.
+    brume_pass transfer_pass[2] = {};
+    brume_pass group_pass[2] = {};
+    brume_pass compose_pass[2] = {};
 };
 
 // At planning, when the entries are there.

@@ -2,6 +2,7 @@
 // lamp_field.glsl, environment.glsl.
 #include "surface_published.glsl"
 #include "surface_lamp.glsl"
+#include "surface_transfer.glsl"
 
 // Received of a lamp by a published method, whose `aside` comes at all cosines.
 PURE Received published(int method, sampler2D table, float scattering, float absorption, float cosine)
@@ -46,13 +47,17 @@ PURE float cosine_up(IN(Surface) surface, vec3 up)
     return surface.normal == vec3(R(0.0)) ? R(1.0) : clamp(dot(surface.normal, up), R(-1.0), R(1.0));
 }
 
-// Of a sun's irradiance across its rays, at these optical depths of the way to it: diffuse light comes from above alike.
+// At these optical depths of the way to a sun.
+PURE SlabField sun_field(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up)
+{
+    return slab_field(vec2(scattering * sun_up), vec2(absorption * sun_up), asymmetry, R(1.0), sun_up, settings.ground);
+}
+
+// Of a sun's irradiance across its rays: diffuse light comes from above alike.
 PURE Received received_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up,
                               float normal_up)
 {
-    float s = scattering * sun_up;
-    float a = absorption * sun_up;
-    SlabField field = slab_field(vec2(s), vec2(a), asymmetry, R(1.0), sun_up, settings.ground);
+    SlabField field = sun_field(settings, scattering, absorption, asymmetry, sun_up);
     return Received(field.straight, field.down * R(0.5) * (R(1.0) + normal_up));
 }
 
@@ -61,7 +66,7 @@ PURE Received received_of_sun(IN(SurfaceSettings) settings, float scattering, fl
 PURE vec3 share_of_light(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
                          IN(Light) light, sampler2D gaussians, sampler2D table)
 {
-    bool sun = light.type == light_directional;
+    bool sun = settings.lamps_alone == 0 && light.type == light_directional;
     if (!sun && settings.method == method_calibrated)
         return share_of_lamp(medium, colours, settings, surface, light, gaussians);
     if (sun && settings.method != method_calibrated)
@@ -131,7 +136,7 @@ PURE Arrived arrived_as_published(int method, sampler2D table, float scattering,
 PURE vec3 lit_by_light(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
                        IN(Light) light, IN(Material) material, sampler2D gaussians, sampler2D table, vec3 own)
 {
-    bool sun = light.type == light_directional;
+    bool sun = settings.lamps_alone == 0 && light.type == light_directional;
     if (!sun && settings.method == method_calibrated)
         return lit_by_one_lamp(medium, colours, settings, surface, light, material, gaussians, own);
     if (!material.known || (sun && settings.method != method_calibrated) || !has_normal(surface))
@@ -274,6 +279,91 @@ PURE vec3 sky_change(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) s
     if (settings.method == method_calibrated)
         return own * (environment_share(medium, camera, settings, environment, gaussians, surface) - vec3(R(1.0)));
     return vec3(R(0.0));
+}
+
+// What the medium brings of a lamp by method psf and a point sends on; degree by degree, single scattering.
+PURE float sent_by_psf(sampler2D table, float scattering, float absorption, IN(Sent) sent)
+{
+    float depth = min(scattering + absorption, orders_depth_limit);
+    vec4 low = environment_factors(table, depth, 0);
+    vec4 high = environment_factors(table, depth, 1);
+    float sum = high.x * sent.of[4];
+    for (int l = 0; l < 4; ++l)
+        sum += low[l] * sent.of[l];
+    return scattering / max(scattering + absorption, R(1e-30)) * max(sum, R(0.0));
+}
+
+// Light that comes alike from all the half sphere around an axis, `down` of it onto level ground.
+PURE float sent_from_above(float down, IN(Sent) sent)
+{
+    return R(2.0) * down * max(sent.of[0] + R(0.5) * sent.of[1] - R(0.125) * sent.of[3], R(0.0));
+}
+
+// Radiance for albedo 1 of what the medium brings of a light; of suns by method calibrated alone.
+PURE vec3 sent_of_light(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings,
+                        IN(Surface) surface, IN(Light) light, IN(Transfer) transfer, sampler2D gaussians, sampler2D table)
+{
+    bool sun = settings.lamps_alone == 0 && light.type == light_directional;
+    if (!sun && settings.method == method_calibrated)
+        return sent_of_one_lamp(medium, colours, camera, settings, surface, light, transfer, gaussians);
+    if (sun && settings.method != method_calibrated)
+        return vec3(R(0.0));
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
+    vec3 way = way_to(surface, light);
+    float cosine = cosine_to(surface, light);
+    SunSlant slant = SunSlant(way, R(1.0));
+    if (sun) {
+        slant = sun_slant(medium, light.direction, surface.point);
+        way = slant.up;
+        cosine = cosine_up(surface, slant.up);
+    }
+    Sent sent = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, way), cosine);
+    vec3 sum = vec3(R(0.0));
+    for (int c = 0; c < 3; ++c) {
+        float scattering = min(medium.scattering[c] * p, orders_depth_limit);
+        float absorption = min(medium.absorption[c] * p, orders_depth_limit);
+        if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1])
+            sum[c] = sum[c - 1];
+        else if (sun)
+            sum[c] = sent_from_above(sun_field(settings, scattering, absorption, medium.asymmetry, slant.cosine).down, sent);
+        else
+            sum[c] = sent_by_psf(table, scattering, absorption, sent);
+    }
+    return sent_of_irradiance(surface, light, sum);
+}
+
+// The same of the environment, by method psf alone: method calibrated knows but a factor of what the picture has of it. in_axes: its
+// coefficients in the transfer's axes.
+PURE vec3 sent_of_sky(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D gaussians, sampler2D environment,
+                      sampler2D in_axes, sampler2D table, IN(Surface) surface, IN(Transfer) transfer)
+{
+    if (settings.environment_order == 0 || settings.method != method_psf)
+        return vec3(R(0.0));
+    float p = mean_density_around(medium, camera, table, gaussians, settings.gaussian_count, surface.point);
+    if (p < R(0.0))
+        return vec3(R(0.0));
+    int given = min(settings.transfer, settings.environment_order);
+    Degrees around_normal = environment_degrees(environment, settings.environment_order, in_world(camera, surface.normal));
+    float open = transfer.of[0].x / R(0.282094791774);
+    vec3 of_degree[5];
+    for (int l = 0; l < transfer_degrees; ++l)
+        of_degree[l] = open * lobe_degree(l, R(1.0)) * around_normal.of[l];
+    for (int l = 0; l < given; ++l) {
+        of_degree[l] = vec3(R(0.0));
+        for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+            of_degree[l] += transfer.of[i / 3][i % 3] * vec3(data_texel(in_axes, i));
+    }
+    vec3 depth = min(optical_depth(medium, p), vec3(density_limit));
+    vec3 sum = vec3(R(0.0));
+    for (int c = 0; c < 3; ++c) {
+        vec4 low = environment_factors(table, depth[c], 0);
+        vec4 high = environment_factors(table, depth[c], 1);
+        float all = high.x * of_degree[4][c];
+        for (int l = 0; l < 4; ++l)
+            all += low[l] * of_degree[l][c];
+        sum[c] = medium.scattering[c] / max(medium.scattering[c] + medium.absorption[c], R(1e-30)) * max(all, R(0.0));
+    }
+    return sum;
 }
 
 #include "surface_relit.glsl"

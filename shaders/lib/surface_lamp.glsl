@@ -64,6 +64,9 @@ struct SurfaceSettings {
     int world_normals;
     int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
     int shadowed;  // as AirlightSettings has it
+    int lamps_alone;  // 1: no light is a sun
+    int transfer;  // degrees that frames bring of the surfaces' transfer; 0: none
+    int world_transfer;
     float ground;  // albedo of what lies below, for suns and sky
 };
 
@@ -247,6 +250,31 @@ PURE Shine shine_of(IN(Surface) surface, IN(Material) material)
                  material.specular * choose(material.tint, R(0.04) + R(0.96) * twice * twice * grazing, R(1.0)));
 }
 
+// Irradiance across a light's way in clear air, for intensity 1.
+PURE float strength_across(IN(Surface) surface, IN(Light) light)
+{
+    if (light.type == light_directional)
+        return R(1.0);
+    return min(fluence(max(length(light.position - surface.point), smallest_light), light.radius), radiance_limit);
+}
+
+// The part of it that a spot's cone lets through.
+PURE float within_spot(IN(Surface) surface, IN(Light) light)
+{
+    if (light.type != light_spot)
+        return R(1.0);
+    vec3 way = light.position - surface.point;
+    return spot_factor(light, -dot(way, light.direction) / max(length(way), smallest_light));
+}
+
+PURE vec3 way_to(IN(Surface) surface, IN(Light) light)
+{
+    if (light.type == light_directional)
+        return -light.direction;
+    vec3 way = light.position - surface.point;
+    return way / max(length(way), smallest_light);
+}
+
 // How a lamp stands to a surface of known material.
 struct Facing {
     float strength;  // irradiance across the lamp's way in clear air, for intensity 1
@@ -258,22 +286,12 @@ struct Facing {
 
 PURE Facing facing_of(IN(Surface) surface, IN(Light) light, IN(Material) material, IN(Shine) shine)
 {
-    vec3 way = light.position - surface.point;
-    float distance = max(length(way), smallest_light);
-    vec3 to_lamp = way / distance;
-    float strength = min(fluence(distance, light.radius), radiance_limit);
-    float straight = R(1.0);
-    if (light.type == light_directional) {
-        to_lamp = -light.direction;
-        strength = R(1.0);
-    }
-    if (light.type == light_spot)
-        straight = spot_factor(light, -dot(way, light.direction) / distance);
-    float mirror_cosine = dot(shine.mirrored, to_lamp);
+    float straight = within_spot(surface, light);
+    float mirror_cosine = dot(shine.mirrored, way_to(surface, light));
     float cosine = cosine_to(surface, light);
     float n = material.exponent;
     float lobe = straight * (n + R(1.0)) / (R(2.0) * pi) * exp(n * log(max(mirror_cosine, R(1e-6))));
-    return Facing(strength, straight, cosine, mirror_cosine,
+    return Facing(strength_across(surface, light), straight, cosine, mirror_cosine,
                   choose(cosine > R(0.0) && mirror_cosine > R(0.0), lobe, R(0.0)));
 }
 
@@ -285,6 +303,12 @@ struct Arrived {
     float mirrored_aside;
 };
 
+// From behind less comes: the first moments of light of this mean cosine.
+PURE float fallen_off(float mean_cosine, float cosine)
+{
+    return exp(R(2.0) * mean_cosine * min(cosine, R(0.0)));
+}
+
 PURE Arrived arrived_of_lamp(IN(LampMedium) colour, float g, float p, IN(Facing) facing, float exponent)
 {
     float x = min(colour.reduced * p, orders_depth_limit);
@@ -292,8 +316,7 @@ PURE Arrived arrived_of_lamp(IN(LampMedium) colour, float g, float p, IN(Facing)
     Received r = received_in(colour, g, x, facing.cosine);
     Rescattered again = rescattered_in(colour, x, depth);
     float width = again.cosine * (exponent + R(1.0)) / (exponent + R(2.0));
-    // From behind less comes: the first moments of light of this mean cosine.
-    return Arrived(r.along, parted(depth).x, exp(R(2.0) * again.cosine * min(facing.cosine, R(0.0))) * r.aside,
+    return Arrived(r.along, parted(depth).x, fallen_off(again.cosine, facing.cosine) * r.aside,
                    again.fluence * henyey_greenstein(width, facing.mirror_cosine));
 }
 

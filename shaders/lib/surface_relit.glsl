@@ -4,6 +4,11 @@
 #define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D gaussians, sampler2D environment, sampler2D table
 #define SURFACE_PASSED lights, ungrouped, gaussians, environment, table
 
+// What `ungrouped` has of each light.
+const int part_none = 0;       // it has no part in surfaces
+const int part_ungrouped = 1;  // one in what no light's own layer has
+const int part_grouped = 2;    // a layer of its own
+
 // Of this light, where it has a part in what no light's own layer has.
 PURE vec3 ungrouped_irradiance(IN(Camera) camera, IN(SurfaceSettings) settings, SHADOW_MAP_IMAGES, IN(Surface) surface,
                                IN(Light) light, int index)
@@ -12,14 +17,13 @@ PURE vec3 ungrouped_irradiance(IN(Camera) camera, IN(SurfaceSettings) settings, 
 }
 
 // What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's.
-// ungrouped: of each light, 1 where it has a part in that.
 PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES,
                         SHADOW_MAP_IMAGES, IN(Surface) surface, IN(Material) material, vec3 rest)
 {
     vec3 all = vec3(R(0.0));
     vec3 changed = vec3(R(0.0));
     for (int l = 0; l < settings.light_count; ++l) {
-        if (int(data_texel(ungrouped, l).x) == 0)
+        if (int(data_texel(ungrouped, l).x) != part_ungrouped)
             continue;
         Light light = light_at(lights, l);
         vec3 irradiance = ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l);
@@ -34,13 +38,22 @@ PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) c
                   sky_change(medium, camera, settings, gaussians, environment, table, surface, material, rest * (sky * scale));
     if (some(material.known))
         for (int l = 0; l < settings.light_count; ++l) {
-            if (int(data_texel(ungrouped, l).x) == 0)
+            if (int(data_texel(ungrouped, l).x) != part_ungrouped)
                 continue;
             Light light = light_at(lights, l);
             vec3 own = rest * (ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l) * scale);
             change += lit_by_light(medium, colours, settings, surface, light, material, gaussians, table, own) - own;
         }
     return max(rest + change, min(rest, vec3(R(0.0))));
+}
+
+// With a transfer the light that the medium brings to diffuse surfaces is the pass's for that.
+PURE Material as_relit(IN(SurfaceSettings) settings, IN(Material) material)
+{
+    Material m = material;
+    if (settings.transfer > 0)
+        m.albedo = vec3(R(0.0));
+    return m;
 }
 
 // What a pixel shows of surfaces before and after: what is still to be divided among lamps, and what was.
@@ -58,7 +71,8 @@ PURE Divided divided_by_group(IN(Medium) medium, IN(LampColours) colours, IN(Sur
     vec3 becomes = own;
     if (some(surface.seen))
         becomes = chosen(surface.seen,
-                         lit_by_light(medium, colours, settings, surface, light, material, gaussians, table, own), own);
+                         lit_by_light(medium, colours, settings, surface, light, as_relit(settings, material), gaussians, table,
+                                      own), own);
     return Divided(pixel.rest - own, min(pixel.lit + becomes, vec3(radiance_limit)));
 }
 
@@ -68,9 +82,23 @@ PURE vec3 relit(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, I
 {
     if (!some(surface.seen))
         return source;
-    vec3 sum = rest_received(medium, colours, camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material,
+    vec3 sum = rest_received(medium, colours, camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, as_relit(settings, material),
                              finite_or_zero(pixel.rest)) + pixel.lit;
     return chosen(surface.seen, compose_radiance(source, vec3(R(0.0)), sum, limit), source);
+}
+
+// Light that the medium brings to diffuse surfaces with a transfer. in_axes: the environment's coefficients in the transfer's axes.
+PURE vec3 brought_by_transfer(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES,
+                              sampler2D in_axes, IN(Surface) surface, vec3 albedo, IN(Transfer) transfer)
+{
+    Bool there = surface.seen && has_normal(surface);
+    if (!some(there))
+        return vec3(R(0.0));
+    vec3 sum = sent_of_sky(medium, camera, settings, gaussians, environment, in_axes, table, surface, transfer);
+    for (int l = 0; l < settings.light_count; ++l)
+        if (int(data_texel(ungrouped, l).x) != part_none)
+            sum += sent_of_light(medium, colours, camera, settings, surface, light_at(lights, l), transfer, gaussians, table);
+    return chosen(there, min(reflectance(albedo) * sum, vec3(radiance_limit)), vec3(R(0.0)));
 }
 
 // A point of the surface that a neighbouring pixel shows, relative to `point`; huge where it shows none.

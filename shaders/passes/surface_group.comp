@@ -42,6 +42,7 @@ SurfaceSettings planned()
 {
     SurfaceSettings s = settings;
     s.method = METHOD;
+    s.lamps_alone = LAMPS_ALONE;
     if (MATERIAL == 0)
         s.material = 0;
     return s;

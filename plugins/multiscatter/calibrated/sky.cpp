@@ -7,18 +7,6 @@ namespace multiscatter {
 
 using namespace brume::maths_float;
 
-int environment_order(const brume_plugin_scene &scene)
-{
-    return int(std::lround(std::sqrt(double(scene.environment_count))));
-}
-
-void copy_environment(const brume_plugin_scene &scene, std::vector<float> &texels)
-{
-    texels.assign(size_t(BRUME_DATA_WIDTH) * 4, 0.0f);
-    for (uint32_t i = 0; i < scene.environment_count; ++i)
-        std::copy_n(scene.environment[i], 3, &texels[4 * i]);
-}
-
 float first_sky(const brume_plugin_scene &scene)
 {
     const float(&s)[3] = scene.medium->scattering;
@@ -40,8 +28,7 @@ bool Sky::follow(const brume_plugin_scene &scene, ivec2 size)
     if (asked_ == made_of_)
         return false;
     made_of_ = asked_;
-    copy_environment(scene, coefficients_);
-    const Texture environment{coefficients_.data(), int64_t(BRUME_DATA_WIDTH) * 4, BRUME_DATA_WIDTH, 1, 4};
+    const Data environment = environment_of(scene);
     const Medium medium = medium_of(scene);
     const Camera camera = camera_of(scene);
     const int order = environment_order(scene);
@@ -50,7 +37,7 @@ bool Sky::follow(const brume_plugin_scene &scene, ivec2 size)
         for (int column = 0; column < sky_nodes; ++column) {
             const vec2 pixel = vec2(size) * vec2(float(column), float(row)) / float(sky_nodes - 1);
             const vec3 direction = in_world(camera, normalize(ray_through(camera, pixel)));
-            const Degrees degrees = environment_degrees(environment, order, direction);
+            const Degrees degrees = environment_degrees(environment.texture(), order, direction);
             for (int depth = 0; depth < sky_depths; ++depth) {
                 const vec3 around = environment_around(medium, degrees, order, std::exp2(first_sky(scene) + float(depth)));
                 float *to = &values_[size_t((depth * sky_nodes + row) * sky_nodes + column) * 4];

@@ -15,16 +15,10 @@ public:
 
 private:
     std::vector<float> made_of_, asked_;  // what the values depend on
-    std::vector<float> coefficients_, values_;
+    std::vector<float> values_;
 };
 
 // log2 of the density integral that its first depth stands for.
 float first_sky(const brume_plugin_scene &scene);
-
-// Of the coefficients.
-int environment_order(const brume_plugin_scene &scene);
-
-// A data image's texels.
-void copy_environment(const brume_plugin_scene &scene, std::vector<float> &texels);
 
 }  // namespace multiscatter

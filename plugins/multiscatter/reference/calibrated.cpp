@@ -162,9 +162,7 @@ void CalibratedSplatting::prepare(const ReferenceFrame &frame)
 {
     const SpreadSource source = source_of(frame.state, frame.scene);
     tabulate(frame, source);
-    std::vector<float> coefficients;
-    copy_environment(frame.scene, coefficients);
-    environment_ = Data(coefficients.data(), coefficients.size() / 4, 4);
+    environment_ = environment_of(frame.scene);
     const int width = frame.state.width, height = frame.state.height;
     vec4 surroundings(0);
     for (const Source &s : sources_)

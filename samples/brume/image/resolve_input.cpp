@@ -18,9 +18,13 @@ namespace {
 struct KnownName {
     const char *role, *layer;
 };
-constexpr KnownName kKnownNames[] = {{"normal", "normal"},      {"normal", "n"},          {"albedo", "albedo"},
-                                     {"albedo", "diffcol"},     {"specular", "specular"}, {"specular", "glosscol"},
-                                     {"roughness", "roughness"}};
+constexpr KnownName kKnownNames[] = {{"normal", "normal"},         {"normal", "n"},
+                                     {"albedo", "albedo"},         {"albedo", "diffcol"},
+                                     {"specular", "specular"},     {"specular", "glosscol"},
+                                     {"roughness", "roughness"},   {"transfer_0", "transfer_0"},
+                                     {"transfer_1", "transfer_1"}, {"transfer_2", "transfer_2"},
+                                     {"transfer_3", "transfer_3"}, {"transfer_4", "transfer_4"},
+                                     {"transfer_5", "transfer_5"}};
 
 constexpr const char *kTriples[][3] = {
     {"R", "G", "B"}, {"r", "g", "b"}, {"red", "green", "blue"}, {"X", "Y", "Z"}, {"x", "y", "z"}};
