@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include <brume/brume.h>
+#include "support/sdk.hpp"
 
 namespace brume::tool {
 

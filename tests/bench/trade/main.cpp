@@ -19,7 +19,7 @@ using namespace trade;
 namespace {
 
 struct Device {
-    Context context;
+    brume::Context context;
     std::string name;
 };
 
@@ -28,7 +28,7 @@ std::vector<Device> devices()
     std::vector<Device> all;
     for (const std::string backend : {"cpu", "gl"})
         try {
-            Context context = create_context(backend);
+            brume::Context context = create_context(backend);
             const brume_context_info info = context.info();
             const std::string device =
                 info.backend == BRUME_BACKEND_CPU ? fmt::format("CPU, {} threads", info.threads) : info.device;
@@ -48,7 +48,7 @@ SetResult measure_set(const std::vector<Device> &on, const Set &set, BenchOption
         fmt::print(stderr, "{}, {}: {}\n", set.effect, set.name, p.sample.name);
         const Reference reference = make_reference(on.front().context, p.scene, p.sample, set.effect, options);
         for (std::size_t d = 0; d < on.size(); ++d) {
-            const Context &context = on[d].context;
+            const brume::Context &context = on[d].context;
             BenchReport report = report_for(context, p.scene, p.sample, options);
             report.copy_ms = copy_ms(p.sample, options.repeat);
             report.median_optical_depth = median_optical_depth(context, p.scene, p.sample);
