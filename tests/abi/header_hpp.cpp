@@ -1,1 +1,2 @@
 #include <brume/brume.hpp>
+#include <brume/brume_media.hpp>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <brume/brume.hpp>
+#include <brume/brume_media.hpp>
 
 namespace {
 
@@ -123,4 +124,62 @@ TEST(Hpp, HandlesOwn)
     EXPECT_GE(plans[1].info().entry_count, 1u);
     plans.erase(plans.begin());
     EXPECT_THROW(plans[0].execute(brume_frame BRUME_FRAME_INIT), brume::Error);
+}
+
+TEST(Hpp, UpdatesAPlan)
+{
+    brume::Context context = cpu();
+    brume_format format = brume::format(2, 2);
+    format.depth_kind = BRUME_DEPTH_RAY;
+    brume::Plan plan(brume::Scene(context, text), format);
+    const brume::Scene thin(context, R"({"brume": 1, "camera": {"vertical_fov": 50}, "medium": {"absorption": 0.05}})");
+    const std::vector<float> color(16, 1), depth(4, 10);
+    std::vector<float> output(16);
+    plan.update(thin);
+    plan.execute(brume::image(color.data(), 2, 2, 4), brume::image(depth.data(), 2, 2, 1),
+                 brume::image(output.data(), 2, 2, 4));
+    EXPECT_NEAR(output[0], 0.60653066, 1e-6);
+    format.far_distance = 5;
+    plan.update(thin, format);
+    plan.execute(brume::image(color.data(), 2, 2, 4), brume::image(depth.data(), 2, 2, 1),
+                 brume::image(output.data(), 2, 2, 4));
+    EXPECT_EQ(output[0], 0);
+    EXPECT_THROW(plan.update(brume::Scene(context, R"({"brume": 1})")), brume::Error);
+    context.trim();
+}
+
+TEST(Hpp, ListsLayers)
+{
+    brume::Context context = cpu();
+    EXPECT_FALSE(context.layers("multiscatter").empty());
+    EXPECT_FALSE(context.library_layers().empty());
+    EXPECT_TRUE(context.layers("nothing").empty());
+    const brume_layer light = brume::layer("light_airlight", nullptr, 3);
+    EXPECT_STREQ(light.name, "light_airlight");
+    EXPECT_EQ(light.light, 3u);
+}
+
+TEST(Hpp, MakesMedia)
+{
+    brume::Context context = cpu();
+    brume::Media media(context);
+    EXPECT_TRUE(media.gaussians().empty());
+    EXPECT_TRUE(media.selection().empty());
+    media.put(std::vector<brume_gaussian>(2, brume_gaussian BRUME_GAUSSIAN_INIT));
+    media.select_all();
+    EXPECT_EQ(media.selection(), std::vector<std::uint8_t>(2, 1));
+    media.copy();
+    media.paste({1, 2, 3});
+    ASSERT_EQ(media.gaussians().size(), 4u);
+    EXPECT_EQ(media.gaussians()[3].center[2], 3);
+    brume::Media again(context);
+    again.replay(media.journal());
+    EXPECT_EQ(again.gaussians().size(), 4u);
+    media.remove();
+    EXPECT_EQ(media.info().gaussian_count, 2u);
+    media.undo();
+    EXPECT_EQ(media.info().gaussian_count, 4u);
+    media.redo();
+    EXPECT_THROW(media.redo(), brume::Error);
+    EXPECT_THROW(media.load("/nowhere/media.csv"), brume::Error);
 }

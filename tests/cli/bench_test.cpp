@@ -191,9 +191,8 @@ TEST_F(Bench, MeasuresWhatAPluginSaysOfItself)
     brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
     desc.backend = BRUME_BACKEND_CPU;
     desc.plugin_directory = folder.c_str();
-    brume_context context = nullptr;
-    ASSERT_EQ(brume_context_create(&desc, &context), BRUME_OK);
-    const ContextHandle owner(context);
+    const Context context(desc);
+    ASSERT_EQ(context.status(), BRUME_OK);
     const SceneText scene{R"({"brume":1,"camera":{"vertical_fov":50},"medium":{"scattering":0.02},
         "effects":{"multiscatter":{},"well_behaved":{"masking":false}}})",
                           "fog.json",

@@ -43,7 +43,7 @@ template <class Work> double median_of(int repeat, const Work &work)
     return median(std::move(times));
 }
 
-std::vector<float> optical_depths(brume_context context, const SceneText &scene, const Sample &sample)
+std::vector<float> optical_depths(const Context &context, const SceneText &scene, const Sample &sample)
 {
     SettingRun run(context, scene, nullptr, sample, "optical_depth");
     run.execute();
@@ -70,7 +70,7 @@ double half_height(const SceneText &scene, const Sample &sample)
     return vertical > 0 ? vertical : horizontal > 0 ? horizontal : 0.5;
 }
 
-BaselineInput baseline_input(brume_context context, const SceneText &scene, const Sample &sample)
+BaselineInput baseline_input(const Context &context, const SceneText &scene, const Sample &sample)
 {
     std::vector<float> values = optical_depths(context, scene, sample);
     std::transform(values.begin(), values.end(), values.begin(), [](float tau) { return std::exp(-tau); });
@@ -121,7 +121,7 @@ private:
     std::vector<Entry> waiting_;
 };
 
-void measure_settings(brume_context context, const SceneText &scene, const Sample &sample, const Reference &reference,
+void measure_settings(const Context &context, const SceneText &scene, const Sample &sample, const Reference &reference,
                       int repeat, std::vector<Row> &rows)
 {
     Turns turns(repeat);
@@ -159,16 +159,13 @@ double error_of(const Metrics &metrics)
     return std::sqrt(metrics.relative_mse);
 }
 
-std::vector<std::string> effects_to_measure(brume_context context, const SceneText &scene, const Sample &sample)
+std::vector<std::string> effects_to_measure(const Context &context, const SceneText &scene, const Sample &sample)
 {
     const SettingRun run(context, scene, nullptr, sample);
     std::vector<std::string> effects;
-    brume_effect_info info = BRUME_EFFECT_INFO_INIT;
-    for (std::uint32_t e = 0; e < brume_effect_count(context); ++e) {
-        check_request(context, brume_effect_get_info(context, e, &info), "effects");
-        if (!info.refusal && run.runs(info.name))
-            effects.push_back(info.name);
-    }
+    for (const brume_effect_info &effect : context.effects())
+        if (!effect.refusal && run.runs(effect.name))
+            effects.push_back(effect.name);
     return effects;
 }
 
@@ -187,13 +184,13 @@ double copy_ms(const Sample &sample, int repeat)
     });
 }
 
-double median_optical_depth(brume_context context, const SceneText &scene, const Sample &sample)
+double median_optical_depth(const Context &context, const SceneText &scene, const Sample &sample)
 {
     const std::vector<float> tau = optical_depths(context, scene, sample);
     return median({tau.begin(), tau.end()});
 }
 
-Reference make_reference(brume_context cpu, const SceneText &scene, const Sample &sample, const std::string &effect,
+Reference make_reference(const Context &cpu, const SceneText &scene, const Sample &sample, const std::string &effect,
                          const BenchOptions &options)
 {
     const Setting setting = reference_of(cpu, effect);
@@ -224,7 +221,7 @@ Reference make_reference(brume_context cpu, const SceneText &scene, const Sample
     return best;
 }
 
-Group measure_group(brume_context context, const SceneText &scene, const Sample &sample, const Reference &reference,
+Group measure_group(const Context &context, const SceneText &scene, const Sample &sample, const Reference &reference,
                     double copy, const BenchOptions &options)
 {
     Group group;

@@ -49,22 +49,22 @@ struct BenchOptions {
 double error_of(const Metrics &metrics);
 
 /// Effects that do something here.
-std::vector<std::string> effects_to_measure(brume_context context, const SceneText &scene, const Sample &sample);
+std::vector<std::string> effects_to_measure(const Context &context, const SceneText &scene, const Sample &sample);
 
 /// Milliseconds of copying the image out of memory rather than out of a cache.
 double copy_ms(const Sample &sample, int repeat);
 
 /// Median over the picture of the optical depth, channels weighted by luminance.
-double median_optical_depth(brume_context context, const SceneText &scene, const Sample &sample);
+double median_optical_depth(const Context &context, const SceneText &scene, const Sample &sample);
 
 /// `cpu`: references run nowhere else.
-Reference make_reference(brume_context cpu, const SceneText &scene, const Sample &sample, const std::string &effect,
+Reference make_reference(const Context &cpu, const SceneText &scene, const Sample &sample, const std::string &effect,
                          const BenchOptions &options);
 
 /// All settings of the reference's effect, other effects as the scene has them. Each is timed on `sample`, after one run
 /// to warm up and in turn with the others, and its error taken against the reference at the reference's size and against
 /// truth at the sample's.
-Group measure_group(brume_context context, const SceneText &scene, const Sample &sample, const Reference &reference,
+Group measure_group(const Context &context, const SceneText &scene, const Sample &sample, const Reference &reference,
                     double copy, const BenchOptions &options);
 
 /// Marks the rows that no other row beats, in time and either error.

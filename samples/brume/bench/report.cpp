@@ -87,10 +87,9 @@ std::string table_of(const Group &group)
 
 }  // namespace
 
-BenchReport report_for(brume_context context, const SceneText &scene, const Sample &sample, const BenchOptions &options)
+BenchReport report_for(const Context &context, const SceneText &scene, const Sample &sample, const BenchOptions &options)
 {
-    brume_context_info info = BRUME_CONTEXT_INFO_INIT;
-    check_request(context, brume_context_get_info(context, &info), "");
+    const brume_context_info info = context.info();
     BenchReport report;
     report.scene = scene.name;
     report.frame = sample.name;

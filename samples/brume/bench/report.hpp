@@ -17,7 +17,7 @@ struct BenchReport {
 };
 
 /// With the backend's name and device, and nothing measured.
-BenchReport report_for(brume_context context, const SceneText &scene, const Sample &sample, const BenchOptions &options);
+BenchReport report_for(const Context &context, const SceneText &scene, const Sample &sample, const BenchOptions &options);
 
 nlohmann::ordered_json json_of(const Errors &errors);
 nlohmann::ordered_json json_of(const Group &group);

@@ -10,7 +10,7 @@ namespace brume::tool {
 class SettingRun {
 public:
     /// Throws RequestError where the setting is refused.
-    SettingRun(brume_context context, const SceneText &scene, const Setting *setting, const Sample &sample,
+    SettingRun(const Context &context, const SceneText &scene, const Setting *setting, const Sample &sample,
                std::string output = "");
 
     /// Fogs the picture; milliseconds of the effect's passes and of those that serve all effects.
@@ -24,11 +24,10 @@ public:
     std::uint64_t bytes() const;  ///< of images that it holds
 
 private:
-    brume_context context_;
     const Sample &sample_;
     std::string effect_;
     std::string output_;  ///< layer that is filled, too; empty: none
-    PlanHandle plan_;
+    Plan plan_;
     std::vector<float> pixels_, extra_;
 };
 

@@ -57,9 +57,9 @@ void add_airlight(std::vector<Setting> &all)
                 {effect, tier + ", " + resolution, Kind::kPublished, {{"tier", tier}, {"resolution", resolution}}});
 }
 
-template <class Visit> void for_choices(brume_context context, const std::string &effect, const Visit &visit)
+template <class Visit> void for_choices(const Context &context, const std::string &effect, const Visit &visit)
 {
-    for (const brume_parameter_info &parameter : parameters_of(context, effect)) {
+    for (const brume_parameter_info &parameter : context.parameters(effect)) {
         std::istringstream choices(parameter.type == BRUME_PARAMETER_CHOICE    ? parameter.choices
                                    : parameter.type == BRUME_PARAMETER_BOOLEAN ? "false|true"
                                                                                : "");
@@ -82,23 +82,7 @@ const char *name_of(Kind kind)
     return kind == Kind::kSetting ? "setting" : kind == Kind::kPublished ? "published" : "baseline";
 }
 
-std::vector<brume_parameter_info> parameters_of(brume_context context, const std::string &effect)
-{
-    std::vector<brume_parameter_info> all;
-    brume_effect_info info = BRUME_EFFECT_INFO_INIT;
-    for (std::uint32_t e = 0; e < brume_effect_count(context); ++e) {
-        check_request(context, brume_effect_get_info(context, e, &info), effect);
-        if (info.name != effect || info.refusal)
-            continue;
-        for (std::uint32_t i = 0; i < info.parameter_count; ++i) {
-            all.push_back(BRUME_PARAMETER_INFO_INIT);
-            check_request(context, brume_parameter_get_info(context, info.name, i, &all.back()), effect);
-        }
-    }
-    return all;
-}
-
-std::vector<Setting> settings_of(brume_context context, const std::string &effect)
+std::vector<Setting> settings_of(const Context &context, const std::string &effect)
 {
     std::vector<Setting> list;
     if (effect == "multiscatter")
@@ -115,7 +99,7 @@ std::vector<Setting> settings_of(brume_context context, const std::string &effec
     return list;
 }
 
-Setting reference_of(brume_context context, const std::string &effect)
+Setting reference_of(const Context &context, const std::string &effect)
 {
     Setting setting{effect, "reference", Kind::kSetting, {}};
     for_choices(context, effect, [&](const std::string &parameter, const std::string &choice, bool) {

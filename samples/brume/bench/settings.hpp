@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <brume/brume.h>
+#include "support/sdk.hpp"
 
 namespace brume::tool {
 
@@ -24,14 +24,11 @@ struct Setting {
     Parameters parameters;
 };
 
-/// Of the effect of this name; none where it was refused.
-std::vector<brume_parameter_info> parameters_of(brume_context context, const std::string &effect);
-
 /// What is measured of an effect, its default first: of effects that no study was made for, each choice of each parameter by
 /// itself. A setting that the scene or the backend does not allow is listed with the reason.
-std::vector<Setting> settings_of(brume_context context, const std::string &effect);
+std::vector<Setting> settings_of(const Context &context, const std::string &effect);
 
 /// The yardstick of an effect: the choice that it calls `reference`; without one, its defaults.
-Setting reference_of(brume_context context, const std::string &effect);
+Setting reference_of(const Context &context, const std::string &effect);
 
 }  // namespace brume::tool

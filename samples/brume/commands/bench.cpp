@@ -33,7 +33,7 @@ void check_ending(const std::string &option, const std::string &file, const std:
         throw RequestError(fmt::format("{} '{}': expected a name ending in {}", option, file, ending));
 }
 
-Sample sample_of(const BenchCommand &command, brume_context context, const SceneText &scene)
+Sample sample_of(const BenchCommand &command, const Context &context, const SceneText &scene)
 {
     make_scene(context, scene);  // so that errors in the scene come first, and from the library
     const CameraBlock camera = CameraBlock::of_scene(scene.text, scene.name);
@@ -58,17 +58,17 @@ int bench(const BenchCommand &command)
     check_ending("--svg", command.svg, ".svg");
     check_ending("--png", command.png, ".png");
     const SceneText scene = read_scene(command.fog.scene, command.fog.set);
-    const ContextHandle context = create_context(command.fog.backend), cpu = create_context("cpu");
-    const Sample sample = sample_of(command, context.get(), scene);
-    BenchReport report = report_for(context.get(), scene, sample, command.options);
-    const std::vector<std::string> effects = effects_to_measure(context.get(), scene, sample);
+    const Context context = create_context(command.fog.backend), cpu = create_context("cpu");
+    const Sample sample = sample_of(command, context, scene);
+    BenchReport report = report_for(context, scene, sample, command.options);
+    const std::vector<std::string> effects = effects_to_measure(context, scene, sample);
     if (effects.empty())
         throw RequestError(fmt::format("{}: nothing to measure: no effect does anything here", scene.name));
     report.copy_ms = copy_ms(sample, command.options.repeat);
-    report.median_optical_depth = median_optical_depth(context.get(), scene, sample);
+    report.median_optical_depth = median_optical_depth(context, scene, sample);
     for (const std::string &effect : effects) {
-        const Reference reference = make_reference(cpu.get(), scene, sample, effect, command.options);
-        report.groups.push_back(measure_group(context.get(), scene, sample, reference, report.copy_ms, command.options));
+        const Reference reference = make_reference(cpu, scene, sample, effect, command.options);
+        report.groups.push_back(measure_group(context, scene, sample, reference, report.copy_ms, command.options));
     }
     const std::string table = markdown_of(report);
     fmt::print("{}", table);

@@ -15,20 +15,17 @@ namespace {
 
 int calibrate(const std::string &backend, std::filesystem::path file)
 {
-    const ContextHandle context = create_context(backend);
+    const Context context = create_context(backend);
     if (file.empty())
-        file = calibration_file(context.get());
+        file = calibration_file(context);
     if (file.empty())
         throw RequestError("neither XDG_CACHE_HOME nor HOME names a folder; expected --output FILE");
     std::error_code ignored;
     std::filesystem::create_directories(file.parent_path(), ignored);
     try {
         PendingFile pending(file);
-        check_request(context.get(), brume_context_calibrate(context.get()), "calibrate");
-        std::string text(brume_context_calibration(context.get(), nullptr, 0), '\0');
-        brume_context_calibration(context.get(), text.data(), text.size());
-        text.pop_back();
-        if (!(std::ofstream(pending.path(), std::ios::binary) << text).flush())
+        check_request(context, context.calibrate(), "calibrate");
+        if (!(std::ofstream(pending.path(), std::ios::binary) << context.calibration()).flush())
             throw RequestError(fmt::format("{}: cannot be written", file.string()));
         pending.commit();
     } catch (const FrameError &e) {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
-#include "run/layers.hpp"
+#include "support/sdk.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -70,63 +70,54 @@ std::string flags_text(const brume_layer_info &layer)
                        layer.flags & BRUME_LAYER_OF_LIGHT ? ", one for each light" : "");
 }
 
-ordered_json parameters_of(brume_context context, const brume_effect_info &effect)
+ordered_json in_json(const std::vector<brume_parameter_info> &parameters)
 {
-    ordered_json parameters = ordered_json::array();
-    for (std::uint32_t i = 0; i < effect.parameter_count; ++i) {
-        brume_parameter_info p = BRUME_PARAMETER_INFO_INIT;
-        check_request(context, brume_parameter_get_info(context, effect.name, i, &p), effect.name);
-        parameters.push_back({{"name", p.name},
-                              {"type", type_text(p)},
-                              {"default", default_text(p)},
-                              {"range", range_text(p)},
-                              {"help", p.help}});
-    }
-    return parameters;
+    ordered_json list = ordered_json::array();
+    for (const brume_parameter_info &p : parameters)
+        list.push_back({{"name", p.name},
+                        {"type", type_text(p)},
+                        {"default", default_text(p)},
+                        {"range", range_text(p)},
+                        {"help", p.help}});
+    return list;
 }
 
-ordered_json layers_in_json(brume_context context, const char *effect)
+ordered_json in_json(const std::vector<brume_layer_info> &layers)
 {
-    ordered_json layers = ordered_json::array();
-    for (const brume_layer_info &layer : layers_of(context, effect))
-        layers.push_back({{"name", layer.name},
-                          {"direction", layer.flags & BRUME_LAYER_INPUT ? "read" : "filled"},
-                          {"needed", (layer.flags & BRUME_LAYER_NEEDED) != 0},
-                          {"of_light", (layer.flags & BRUME_LAYER_OF_LIGHT) != 0},
-                          {"channels", layer.channels},
-                          {"help", layer.help}});
-    return layers;
+    ordered_json list = ordered_json::array();
+    for (const brume_layer_info &layer : layers)
+        list.push_back({{"name", layer.name},
+                        {"direction", layer.flags & BRUME_LAYER_INPUT ? "read" : "filled"},
+                        {"needed", (layer.flags & BRUME_LAYER_NEEDED) != 0},
+                        {"of_light", (layer.flags & BRUME_LAYER_OF_LIGHT) != 0},
+                        {"channels", layer.channels},
+                        {"help", layer.help}});
+    return list;
 }
 
-void print_layers(brume_context context, const char *effect)
+void print_layers(const std::vector<brume_layer_info> &layers)
 {
-    for (const brume_layer_info &layer : layers_of(context, effect))
+    for (const brume_layer_info &layer : layers)
         fmt::print("  {:<20} layer    {:<26} {} {:<13} {}\n", layer.name, flags_text(layer), layer.channels,
                    layer.channels == 1 ? "channel" : "channels", layer.help);
 }
 
-void print_effect(brume_context context, const brume_effect_info &effect)
+void print_effect(const Context &context, const brume_effect_info &effect)
 {
     fmt::print("{}  {}\n", effect.name, effect.help);
-    for (std::uint32_t i = 0; i < effect.parameter_count; ++i) {
-        brume_parameter_info p = BRUME_PARAMETER_INFO_INIT;
-        check_request(context, brume_parameter_get_info(context, effect.name, i, &p), effect.name);
+    for (const brume_parameter_info &p : context.parameters(effect.name))
         fmt::print("  {:<20} {:<8} default {:<10} {:<24} {}\n", p.name, type_text(p), default_text(p), range_text(p),
                    p.help);
-    }
-    print_layers(context, effect.name);
+    print_layers(context.layers(effect.name));
 }
 
 int effects(const EffectsOptions &options)
 {
-    const ContextHandle handle = create_context("cpu");
-    const brume_context context = handle.get();
+    const Context context = create_context("cpu");
     bool found = false;
     std::string known;
     ordered_json list = ordered_json::array();
-    for (std::uint32_t i = 0; i < brume_effect_count(context); ++i) {
-        brume_effect_info effect = BRUME_EFFECT_INFO_INIT;
-        check_request(context, brume_effect_get_info(context, i, &effect), "");
+    for (const brume_effect_info &effect : context.effects()) {
         known += fmt::format("{}{}", known.empty() ? "" : ", ", effect.name);
         if (!options.name.empty() && options.name != effect.name)
             continue;
@@ -135,8 +126,8 @@ int effects(const EffectsOptions &options)
             list.push_back(effect.refusal ? ordered_json{{"name", effect.name}, {"refusal", effect.refusal}}
                                           : ordered_json{{"name", effect.name},
                                                          {"help", effect.help},
-                                                         {"parameters", parameters_of(context, effect)},
-                                                         {"layers", layers_in_json(context, effect.name)}});
+                                                         {"parameters", in_json(context.parameters(effect.name))},
+                                                         {"layers", in_json(context.layers(effect.name))}});
         else if (effect.refusal)
             fmt::print("{}  not loaded: {}\n", effect.name, effect.refusal);
         else
@@ -145,21 +136,19 @@ int effects(const EffectsOptions &options)
     if (!options.name.empty() && !found)
         throw RequestError(fmt::format("no effect '{}'; there are {}", options.name, known.empty() ? "none" : known));
     if (options.json) {
-        const ordered_json out{{"effects", list}, {"library_layers", layers_in_json(context, nullptr)}};
+        const ordered_json out{{"effects", list}, {"library_layers", in_json(context.library_layers())}};
         fmt::print("{}\n", out.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     } else if (options.name.empty()) {
         fmt::print("brume  the library itself, for all effects\n");
-        print_layers(context, nullptr);
+        print_layers(context.library_layers());
     }
     return kDone;
 }
 
 int schema()
 {
-    const ContextHandle context = create_context("cpu");
-    std::string text(brume_scene_schema(context.get(), nullptr, 0), '\0');
-    brume_scene_schema(context.get(), text.data(), text.size());
-    fmt::print("{}\n", text.c_str());
+    const Context context = create_context("cpu");
+    fmt::print("{}\n", context.scene_schema());
     return kDone;
 }
 

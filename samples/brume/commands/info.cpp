@@ -112,8 +112,8 @@ void describe_camera(ordered_json &info, const ImageFile &file, const InfoOption
 void describe_inputs(ordered_json &info, const ImageFile &file, const InfoOptions &options, const ColorChoice *color,
                      int frame)
 {
-    const ContextHandle context = create_context("cpu");
-    const std::vector<InputRequest> asked = parse_inputs(context.get(), options.inputs);
+    const Context context = create_context("cpu");
+    const std::vector<InputRequest> asked = parse_inputs(context, options.inputs);
     if (!color && asked.empty())
         return;
     if (!color)
@@ -123,7 +123,7 @@ void describe_inputs(ordered_json &info, const ImageFile &file, const InfoOption
     for (const OpenInput &input : open_inputs(file, *color, frame, asked, {}, {}, {}, {}))
         info["inputs"][input.choice.role] = description(input);
     // No scene says here that some effect will want them.
-    for (const std::string &role : known_roles(context.get()))
+    for (const std::string &role : known_roles(context))
         if (!info["inputs"].contains(role))
             try {
                 if (auto choice = find_known_input(file, role, *color))

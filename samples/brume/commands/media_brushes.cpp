@@ -26,8 +26,8 @@ int paint(const PaintOptions &options)
     options.brush.take(paint.scale, paint.amplitude, paint.color);
     paint.spacing = options.spacing;
     paint.jitter = options.jitter;
-    const Document document(options.file, Document::kIsEmpty);
-    document.check(brume_media_apply_paint(document.get(), &paint));
+    Document document(options.file, Document::kIsEmpty);
+    document.check(document.media().apply(paint));
     document.save();
     return kDone;
 }
@@ -45,8 +45,8 @@ int erase(const EraseOptions &options)
     erase.stroke = stroke.get();
     erase.radius = options.radius;
     erase.strength = options.strength;
-    const Document document(options.file, Document::kFails);
-    document.check(brume_media_apply_erase(document.get(), &erase));
+    Document document(options.file, Document::kFails);
+    document.check(document.media().apply(erase));
     document.save();
     return kDone;
 }

@@ -30,9 +30,9 @@ struct Extent {
 
 int info(const std::string &file, bool as_json)
 {
-    const Medium medium;
-    medium.check(brume_media_load(medium.get(), file.c_str()));
-    const auto gaussians = medium.gaussians();
+    Medium medium;
+    medium.check(medium.media().load(file));
+    const auto gaussians = medium.media().gaussians();
     ordered_json out{{"file", file}, {"gaussians", gaussians.size()}};
     if (!gaussians.empty()) {
         Extent axes[3], radius, amplitude;
@@ -50,8 +50,8 @@ int info(const std::string &file, bool as_json)
         out["mass"] = mass;
     }
     if (std::filesystem::exists(Document::journal_of(file))) {
-        const Document document(file, Document::kFails);
-        const brume_media_info history = document.medium().info();
+        Document document(file, Document::kFails);
+        const brume_media_info history = document.media().info();
         out["undo"] = history.undo_count;
         out["redo"] = history.redo_count;
     }
@@ -79,16 +79,16 @@ int info(const std::string &file, bool as_json)
 
 int convert(const std::string &input, const std::string &output)
 {
-    const Medium medium;
-    medium.check(brume_media_load(medium.get(), input.c_str()));
+    Medium medium;
+    medium.check(medium.media().load(input));
     medium.save(output);
     return kDone;
 }
 
 int join(const std::string &file, const std::string &other)
 {
-    const Document document(file, Document::kIsEmpty);
-    document.check(brume_media_load(document.get(), other.c_str()));
+    Document document(file, Document::kIsEmpty);
+    document.check(document.media().load(other));
     document.save();
     return kDone;
 }

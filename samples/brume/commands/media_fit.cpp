@@ -37,8 +37,8 @@ int fit(const FitOptions &options)
         to.amplitude = from.amplitude / options.unit;
         gaussians.push_back(to);
     }
-    const Medium medium;
-    medium.check(brume_media_put(medium.get(), gaussians.data(), std::uint32_t(gaussians.size())));
+    Medium medium;
+    medium.check(medium.media().put(gaussians));
     medium.save(options.output);
 
     if (options.json) {

@@ -42,16 +42,16 @@ int emit(const EmitOptions &options)
         throw RequestError(
             fmt::format("{}: expected --frames with a pattern such as puffs.####.csv, and only then", options.file));
     if (!pattern.is_sequence()) {
-        const Document document(options.file, Document::kIsEmpty);
-        document.check(brume_media_apply_emit(document.get(), &emitter, options.time));
+        Document document(options.file, Document::kIsEmpty);
+        document.check(document.media().apply(emitter, options.time));
         document.save();
         return kDone;
     }
     const std::vector<int> frames = parse_frames(options.frames);
     for (const int frame : frames) {
-        const Medium medium;
+        Medium medium;
         const double time = options.time + (frame - frames.front()) / options.fps;
-        medium.check(brume_media_apply_emit(medium.get(), &emitter, time));
+        medium.check(medium.media().apply(emitter, time));
         medium.save(pattern.at(frame));
     }
     return kDone;
@@ -76,8 +76,8 @@ int airbrush(const AirbrushOptions &options)
         view = options.view.load();
         airbrush.view = view->get();
     }
-    const Document document(options.file, Document::kIsEmpty);
-    document.check(brume_media_apply_airbrush(document.get(), &airbrush));
+    Document document(options.file, Document::kIsEmpty);
+    document.check(document.media().apply(airbrush));
     document.save();
     return kDone;
 }

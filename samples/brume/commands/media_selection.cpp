@@ -28,55 +28,53 @@ struct SelectionOptions {
         view.add_to(command, false);
     }
 
-    void select(const Document &document) const
+    void select(Document &document) const
     {
         if (all == !rectangle.empty())
             throw RequestError("expected --rect or --all, to say which Gaussians");
         if (all) {
-            document.check(brume_media_select_all(document.get()));
+            document.check(document.media().select_all());
             return;
         }
         const auto numbers = parse_numbers(rectangle, 4, "--rect");
         if (!view.given())
             throw RequestError("--rect: expected --frame, or --camera with --size, to say whose screen");
         auto loaded = view.load();
-        document.check(
-            brume_media_select_rectangle(document.get(), loaded.get(), numbers.data(), BRUME_MEDIA_SELECT_REPLACE));
+        document.check(document.media().select_rectangle(*loaded.get(), {numbers[0], numbers[1], numbers[2], numbers[3]}));
     }
 };
 
-void report(const Document &document, const char *what)
+void report(Document &document, const char *what)
 {
-    const brume_media_info info = document.medium().info();
+    const brume_media_info info = document.media().info();
     fmt::print("{} {} of {} Gaussians\n", what, info.selected_count, info.gaussian_count);
 }
 
 int select(const SelectionOptions &options)
 {
-    const Document document(options.file, Document::kFails);
+    Document document(options.file, Document::kFails);
     options.select(document);
     report(document, "selected");
     if (options.output.empty())
         return kDone;
-    const auto all = document.medium().gaussians();
-    std::vector<std::uint8_t> selected(all.size());
-    document.check(brume_media_get_selection(document.get(), 0, std::uint32_t(all.size()), selected.data()));
+    const auto all = document.media().gaussians();
+    const auto selected = document.media().selection();
     std::vector<brume_gaussian> chosen;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (selected[i])
             chosen.push_back(all[i]);
-    const Document to(options.output, Document::kIsEmpty);
-    to.check(brume_media_put(to.get(), chosen.data(), std::uint32_t(chosen.size())));
+    Document to(options.output, Document::kIsEmpty);
+    to.check(to.media().put(chosen));
     to.save();
     return kDone;
 }
 
 int move(const SelectionOptions &options)
 {
-    const Document document(options.file, Document::kFails);
+    Document document(options.file, Document::kFails);
     options.select(document);
     const auto by = parse_numbers(options.by, 3, "--by");
-    document.check(brume_media_move(document.get(), by.data()));
+    document.check(document.media().move({by[0], by[1], by[2]}));
     document.save();
     report(document, "moved");
     return kDone;
@@ -84,11 +82,11 @@ int move(const SelectionOptions &options)
 
 int copy(const SelectionOptions &options)
 {
-    const Document document(options.file, Document::kFails);
+    Document document(options.file, Document::kFails);
     options.select(document);
     const auto by = parse_numbers(options.by, 3, "--by");
-    document.check(brume_media_copy(document.get()));
-    document.check(brume_media_paste(document.get(), by.data()));
+    document.check(document.media().copy());
+    document.check(document.media().paste({by[0], by[1], by[2]}));
     document.save();
     report(document, "pasted");
     return kDone;
@@ -96,10 +94,10 @@ int copy(const SelectionOptions &options)
 
 int remove(const SelectionOptions &options)
 {
-    const Document document(options.file, Document::kFails);
+    Document document(options.file, Document::kFails);
     options.select(document);
     report(document, "deleted");
-    document.check(brume_media_delete(document.get()));
+    document.check(document.media().remove());
     document.save();
     return kDone;
 }

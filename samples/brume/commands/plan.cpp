@@ -39,18 +39,14 @@ int plan(const PlanOptions &options)
     fogger.learn_roles(open.file, open.color, first.frame);
     const std::vector<OpenInput> inputs = fogger.open_inputs(open.file, open.color, first.frame, {});
     fogger.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs, first.frame);
-    const brume_plan plan = fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.part(open.color.part)),
-                                            roles_of(inputs), first.frame);
+    const Plan &plan = fogger.plan_for(open.file, open.color, colors.luminance_weights(open.file.part(open.color.part)),
+                                       roles_of(inputs), first.frame);
     const Shot shot = fogger.shot_of(open.file, open.color, first.frame);
 
-    brume_plan_info info = BRUME_PLAN_INFO_INIT;
-    check_request(fogger.context(), brume_plan_get_info(plan, &info), "plan");
-    brume_context_info device = BRUME_CONTEXT_INFO_INIT;
-    check_request(fogger.context(), brume_context_get_info(fogger.context(), &device), "plan");
+    const brume_plan_info info = plan.info();
+    const brume_context_info device = fogger.context().info();
     ordered_json entries = ordered_json::array();
-    for (std::uint32_t i = 0; i < info.entry_count; ++i) {
-        brume_plan_entry e = BRUME_PLAN_ENTRY_INIT;
-        check_request(fogger.context(), brume_plan_get_entry(plan, i, &e), "plan");
+    for (const brume_plan_entry &e : plan.entries())
         entries.push_back({{"runs", e.runs != 0},
                            {"effect", e.effect},
                            {"pass", e.name},
@@ -58,7 +54,6 @@ int plan(const PlanOptions &options)
                            {"bytes", e.bytes},
                            {"operations", e.operations},
                            {"predicted_ms", e.predicted_ms}});
-    }
     ordered_json given = ordered_json::object();
     for (const OpenInput &input : inputs)
         given[name_of(input)] = description(input);

@@ -5,7 +5,6 @@
 #include "colour/color_manager.hpp"
 #include "environment/harmonics.hpp"
 #include "image/frame.hpp"
-#include "support/sdk.hpp"
 #include "support/error.hpp"
 
 namespace brume::tool {
@@ -27,18 +26,14 @@ HarmonicsRgb project_file(const std::string &path, std::uint32_t up)
 
 }  // namespace
 
-void resolve_environment(brume_context context, brume_scene scene)
+void resolve_environment(const Context &context, Scene &scene)
 {
-    std::string path(brume_scene_environment_file(scene, nullptr, 0), '\0');
-    brume_scene_environment_file(scene, path.data(), path.size());
-    path.pop_back();
+    const std::string path = scene.environment_file();
     if (path.empty())
         return;
-    brume_scene_info info = BRUME_SCENE_INFO_INIT;
-    check_request(context, brume_scene_get_info(scene, &info), "environment");
     try {
-        const HarmonicsRgb coefficients = project_file(path, info.environment_up);
-        check_request(context, brume_scene_set_environment(scene, coefficients[0].data(), kHarmonics), path);
+        const HarmonicsRgb coefficients = project_file(path, scene.info().environment_up);
+        check_request(context, scene.set_environment({coefficients.begin(), coefficients.end()}), path);
     } catch (const FrameError &error) {
         throw RequestError(fmt::format("environment: {}", error.what()));
     }

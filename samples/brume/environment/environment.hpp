@@ -1,11 +1,11 @@
 #pragma once
 
-#include <brume/brume.h>
+#include "support/sdk.hpp"
 
 namespace brume::tool {
 
 /// Gives a scene whose text names an environment image the image's coefficients. Throws RequestError where it cannot be
 /// read.
-void resolve_environment(brume_context context, brume_scene scene);
+void resolve_environment(const Context &context, Scene &scene);
 
 }  // namespace brume::tool

@@ -26,47 +26,28 @@ std::string read_text(const fs::path &file)
 
 }  // namespace
 
-Medium::Medium() : context_(create_context("cpu"))
+Medium::Medium() : media_(create_context("cpu"))
 {
-    brume_media media = nullptr;
-    check_request(context_.get(), brume_media_create(context_.get(), &media), "");
-    media_.reset(media);
-}
-
-brume_media_info Medium::info() const
-{
-    brume_media_info info = BRUME_MEDIA_INFO_INIT;
-    check(brume_media_get_info(get(), &info));
-    return info;
-}
-
-std::vector<brume_gaussian> Medium::gaussians() const
-{
-    std::vector<brume_gaussian> all(info().gaussian_count, brume_gaussian BRUME_GAUSSIAN_INIT);
-    check(brume_media_get_gaussians(get(), 0, std::uint32_t(all.size()), all.data()));
-    return all;
-}
-
-std::string Medium::journal() const
-{
-    std::string text(brume_media_journal(get(), nullptr, 0), '\0');
-    if (text.empty())
-        throw FrameError("the journal cannot be made: " + sdk_message(context_.get(), BRUME_ERROR_MEMORY));
-    brume_media_journal(get(), text.data(), text.size());
-    text.pop_back();
-    return text;
+    check(media_.status());
 }
 
 void Medium::replay(const fs::path &journal)
 {
-    const std::string text = read_text(journal);
-    check(brume_media_replay(get(), text.data(), text.size(), journal.c_str()));
+    check(media_.replay(read_text(journal), journal.string()));
 }
 
 void Medium::save(const fs::path &file) const
 {
-    if (const brume_status status = brume_media_save(get(), file.c_str()); status != BRUME_OK)
-        throw FrameError(sdk_message(context_.get(), status));
+    if (media_.save(file.string()) != BRUME_OK)
+        throw FrameError(media_.context().message());
+}
+
+std::string Medium::journal() const
+{
+    std::string text = media_.journal();
+    if (text.empty())
+        throw FrameError("the journal cannot be made: " + media_.context().message());
+    return text;
 }
 
 bool same_gaussians(const std::vector<brume_gaussian> &a, const std::vector<brume_gaussian> &b)
@@ -85,15 +66,15 @@ Document::Document(fs::path file, Missing missing) : file_(std::move(file))
     const bool has_file = fs::exists(file_), has_journal = fs::exists(journal);
     if (!has_journal) {
         if (has_file || missing == kFails)
-            check(brume_media_load(get(), file_.c_str()));
+            check(media().load(file_.string()));
         return;
     }
     medium_.replay(journal);
-    const auto replayed = medium_.gaussians();
+    const auto replayed = media().gaussians();
     Medium from_file;
     if (has_file)
-        from_file.check(brume_media_load(from_file.get(), file_.c_str()));
-    const auto loaded = from_file.gaussians();
+        from_file.check(from_file.media().load(file_.string()));
+    const auto loaded = from_file.media().gaussians();
     if (!same_gaussians(replayed, loaded))
         throw RequestError(
             fmt::format("{}: is not what {} makes: it was changed by something else; remove the journal to go on "

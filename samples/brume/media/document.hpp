@@ -5,35 +5,27 @@
 #include <string>
 #include <vector>
 
-#include <brume/brume_media.h>
-
 #include "support/sdk.hpp"
+
+#include <brume/brume_media.hpp>
 
 namespace brume::tool {
 
-struct DestroyMedia {
-    void operator()(brume_media m) const { brume_media_destroy(m); }
-};
-using MediaHandle = std::unique_ptr<brume_media_t, DestroyMedia>;
-
-/// A medium in the library. `check` throws RequestError with what the library says of a failure.
+/// A medium in the library, whose failures are RequestErrors with what the library says.
 class Medium {
 public:
     Medium();
 
-    brume_media get() const { return media_.get(); }
-    void check(brume_status status) const { check_request(context_.get(), status, ""); }
+    Media &media() { return media_; }
+    void check(brume_status status) const { check_request(media_.context(), status, ""); }
 
-    brume_media_info info() const;
-    std::vector<brume_gaussian> gaussians() const;
-    std::string journal() const;
     void replay(const std::filesystem::path &journal);
     /// Throws FrameError: nothing was wrong with the request.
     void save(const std::filesystem::path &file) const;
+    std::string journal() const;
 
 private:
-    ContextHandle context_;
-    MediaHandle media_;
+    Media media_;
 };
 
 /// Bit for bit.
@@ -46,8 +38,7 @@ public:
     /// What to do where there is no such file yet.
     Document(std::filesystem::path file, Missing missing);
 
-    const Medium &medium() const { return medium_; }
-    brume_media get() const { return medium_.get(); }
+    Media &media() { return medium_.media(); }
     void check(brume_status status) const { medium_.check(status); }
 
     /// Puts file and journal in place, each whole.

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
-#include <brume/brume.h>
 #include <fmt/format.h>
 
 #include "commands/all.hpp"
@@ -26,10 +25,7 @@ void write(const std::filesystem::path &path, const std::string &text)
 
 std::string scene_schema()
 {
-    const brume::tool::ContextHandle context = brume::tool::create_context("cpu");
-    std::string text(brume_scene_schema(context.get(), nullptr, 0), '\0');
-    brume_scene_schema(context.get(), text.data(), text.size());
-    return text.c_str();
+    return brume::tool::create_context("cpu").scene_schema();
 }
 
 }  // namespace

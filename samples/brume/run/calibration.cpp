@@ -11,10 +11,9 @@
 
 namespace brume::tool {
 
-std::filesystem::path calibration_file(brume_context context)
+std::filesystem::path calibration_file(const Context &context)
 {
-    brume_context_info info = BRUME_CONTEXT_INFO_INIT;
-    check_request(context, brume_context_get_info(context, &info), "calibration");
+    const brume_context_info info = context.info();
     const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
     std::filesystem::path folder;
     if (cache && *cache == '/')
@@ -29,15 +28,15 @@ std::filesystem::path calibration_file(brume_context context)
     return folder / "brume" / fmt::format("{}-{}-{}-threads.json", backend_name(info.backend), device, info.threads);
 }
 
-void load_calibration(brume_context context)
+void load_calibration(const Context &context)
 {
     const std::filesystem::path file = calibration_file(context);
     std::ifstream in(file, std::ios::binary);
     if (file.empty() || !in)
         return;
     const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (const brume_status status = brume_context_set_calibration(context, text.data(), text.size()); status != BRUME_OK)
-        fmt::print(stderr, "brume: {} is not used: {}\n", file.string(), sdk_message(context, status));
+    if (context.set_calibration(text) != BRUME_OK)
+        fmt::print(stderr, "brume: {} is not used: {}\n", file.string(), context.message());
 }
 
 }  // namespace brume::tool

@@ -33,22 +33,11 @@ double detail_of(const ImageFile &file, const ColorChoice &color)
     return std::sqrt(measure(box_blurred(picture, 4), picture).relative_mse);
 }
 
-/// What the scene's text says of one light; "" where nothing.
-std::string said_of_light(decltype(brume_scene_light_group) *ask, brume_scene scene, std::uint32_t light)
-{
-    std::string said(ask(scene, light, nullptr, 0), '\0');
-    if (said.empty())
-        return said;
-    ask(scene, light, said.data(), said.size());
-    said.pop_back();
-    return said;
-}
-
 std::vector<brume_layer> input_layers(const std::vector<std::string> &roles)
 {
     std::vector<brume_layer> layers;
     for (const std::string &role : roles)
-        layers.push_back(layer_named(role.c_str(), nullptr));
+        layers.push_back(brume::layer(role.c_str()));
     return layers;
 }
 
@@ -59,11 +48,8 @@ public:
     {
         images_.reserve(inputs.size());
         for (const InputLayer &input : inputs) {
-            // Inputs are only read.
-            images_.push_back(
-                host_image(const_cast<float *>(input.pixels.data()), input.width, input.height, input.channels));
-            layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
-            layers_.back().light = input.light;
+            images_.push_back(brume::image(input.pixels.data(), input.width, input.height, std::uint32_t(input.channels)));
+            layers_.push_back(brume::layer(input.role.c_str(), &images_.back(), input.light));
         }
     }
     void give_to(brume_frame &frame) const
@@ -77,9 +63,9 @@ private:
     std::vector<brume_layer> layers_;
 };
 
-bool reads_layer(brume_context context, const char *effect, const std::string &role)
+bool reads_layer(const Context &context, const char *effect, const std::string &role)
 {
-    for (const brume_layer_info &layer : layers_of(context, effect))
+    for (const brume_layer_info &layer : context.layers(effect))
         if (layer.flags & BRUME_LAYER_INPUT && role == layer.name)
             return true;
     return false;
@@ -132,38 +118,37 @@ void FogOptions::add_to(CLI::App &command)
                      "The picture goes over a plate in the same fog: the medium's own light counts as far as alpha covers");
 }
 
-Fogger::Fogger(const FogOptions &options) : options_(options)
+Fogger::Fogger(const FogOptions &options) : Fogger(options, read_scene(options.scene, options.set)) {}
+
+Fogger::Fogger(const FogOptions &options, const SceneText &text)
+    : options_(options), context_(create_context(options.backend)), scene_(make_scene(context_, text))
 {
-    const SceneText text = read_scene(options.scene, options.set);
     options.picture.depth_kind();
     options.picture.sky();
-    context_ = create_context(options.backend);
-    outputs_ = parse_layers(context_.get(), options.layers);
+    outputs_ = parse_layers(context_, options.layers);
     output_layers_ = format_layers(outputs_);
-    inputs_ = parse_inputs(context_.get(), options.inputs);
-    load_calibration(context_.get());
+    inputs_ = parse_inputs(context_, options.inputs);
+    load_calibration(context_);
     take_scene(text);
 }
 
 void Fogger::change_scene(const std::string &text)
 {
     plans_.clear();
-    take_scene({text, options_.scene, options_.set});
+    const SceneText changed{text, options_.scene, options_.set};
+    scene_ = make_scene(context_, changed);
+    take_scene(changed);
 }
 
 void Fogger::take_scene(const SceneText &text)
 {
-    scene_ = make_scene(context_.get(), text);
-    const brume_scene scene = scene_.get();
-    brume_context_info context_info = BRUME_CONTEXT_INFO_INIT;
-    check_request(context_.get(), brume_context_get_info(context_.get(), &context_info), "");
-    provenance_ = provenance_of(text, options_, context_info.backend);
+    provenance_ = provenance_of(text, options_, context_.info().backend);
     ask_for_quality();
     scene_camera_ = CameraBlock::of_scene(text.text, options_.scene);
-    check_request(context_.get(), brume_scene_get_info(scene, &scene_info_), options_.scene);
+    scene_info_ = scene_.info();
     shadows_.clear();
     for (std::uint32_t light = 0; light < scene_info_.light_count; ++light)
-        if (std::string name = said_of_light(brume_scene_light_shadow_file, scene, light); !name.empty())
+        if (std::string name = scene_.light_shadow_file(light); !name.empty())
             shadows_.push_back({light, std::move(name)});
     for (const LayerOutput &output : outputs_)
         if (output.of_light && output.light >= scene_info_.light_count)
@@ -175,8 +160,7 @@ void Fogger::ask_for_quality()
 {
     if (options_.preset.empty() && options_.max_error == 0 && options_.budget_ms == 0)
         return;
-    brume_quality quality = BRUME_QUALITY_INIT;
-    check_request(context_.get(), brume_scene_get_quality(scene_.get(), &quality), "quality");
+    brume_quality quality = scene_.quality();
     quality.max_error = options_.max_error;
     quality.budget_ms = options_.budget_ms;
     quality.preset = options_.preset == "draft"      ? BRUME_PRESET_DRAFT
@@ -184,21 +168,20 @@ void Fogger::ask_for_quality()
                      : options_.preset == "final"    ? BRUME_PRESET_FINAL
                      : options_.preset.empty()       ? BRUME_PRESET_NONE
                                                      : BRUME_PRESET_REFERENCE;
-    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
+    check_request(context_, scene_.set_quality(quality), "quality");
 }
 
 void Fogger::expect(const ImageFile &file, const ColorChoice &color, const ImageFile &depth_file, const DepthChoice &depth,
                     const std::vector<OpenInput> &inputs, int number)
 {
-    brume_quality quality = BRUME_QUALITY_INIT;
-    check_request(context_.get(), brume_scene_get_quality(scene_.get(), &quality), "quality");
+    brume_quality quality = scene_.quality();
     if ((quality.preset == BRUME_PRESET_NONE && quality.max_error == 0 && quality.budget_ms == 0) ||
         (quality.transmittance > 0 && quality.detail > 0))
         return;
     const PartInfo &part = depth_file.parts()[depth.part];
     Shot shot = shot_of(file, color, number);
     shot.format = format_of(part.data_window, depth_file.part(depth.part).display_window, options_.picture);
-    brume_layer wanted = layer_named("transmittance", nullptr);
+    brume_layer wanted = brume::layer("transmittance");
     shot.format.outputs = &wanted;
     shot.format.output_count = 1;
     const std::vector<std::string> roles = roles_of(inputs);
@@ -207,22 +190,22 @@ void Fogger::expect(const ImageFile &file, const ColorChoice &color, const Image
     shot.format.input_count = std::uint32_t(given.size());
     brume_quality draft = BRUME_QUALITY_INIT;
     draft.preset = BRUME_PRESET_DRAFT;
-    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &draft), "quality");
-    brume_plan made = nullptr;
-    const brume_status planned = brume_plan_create(scene_.get(), &shot.format, &made);
-    const PlanHandle plan(made);
-    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
-    brume_plan_info info = BRUME_PLAN_INFO_INIT;
+    check_request(context_, scene_.set_quality(draft), "quality");
+    Plan plan(scene_, shot.format);
+    check_request(context_, scene_.set_quality(quality), "quality");
     // What does not work here fails where the scene is planned as it is, with the reason.
-    if (planned != BRUME_OK || brume_plan_get_info(made, &info) != BRUME_OK || info.does_nothing ||
-        (info.camera_needs & ~shot.camera.given))
+    if (!plan)
+        return;
+    const brume_plan_info info = plan.info();
+    if (info.does_nothing || (info.camera_needs & ~shot.camera.given))
         return;
     std::vector<float> distances = read_depth(depth_file, depth);
     options_.picture.depth_kind().convert(distances);
     std::vector<float> color_rgb(distances.size() * 3), transmittance(distances.size() * 3);
     const int width = part.width(), height = part.height();
-    const brume_image c = host_image(color_rgb.data(), width, height, 3), d = host_image(distances.data(), width, height, 1),
-                      t = host_image(transmittance.data(), width, height, 3);
+    const brume_image c = brume::image(color_rgb.data(), width, height, 3),
+                      d = brume::image(distances.data(), width, height, 1),
+                      t = brume::image(transmittance.data(), width, height, 3);
     wanted.image = &t;
     brume_frame call = BRUME_FRAME_INIT;
     call.color = &c;
@@ -236,7 +219,7 @@ void Fogger::expect(const ImageFile &file, const ColorChoice &color, const Image
     const GivenLayers images(layers);
     images.give_to(call);
     call.camera = &shot.camera;
-    check_request(context_.get(), brume_plan_execute(made, &call), file.path().string());
+    check_request(context_, plan.execute(call), file.path().string());
     double sum = 0;
     for (const float value : transmittance)
         sum += double(value);
@@ -244,7 +227,7 @@ void Fogger::expect(const ImageFile &file, const ColorChoice &color, const Image
         quality.transmittance = std::clamp(sum / double(transmittance.size()), 1e-6, 1.0);
     if (quality.detail == 0)
         quality.detail = std::clamp(detail_of(file, color), 1e-6, 1e6);
-    check_request(context_.get(), brume_scene_set_quality(scene_.get(), &quality), "quality");
+    check_request(context_, scene_.set_quality(quality), "quality");
 }
 
 Shot Fogger::shot_of(const ImageFile &file, const ColorChoice &color, int number) const
@@ -257,7 +240,7 @@ Shot Fogger::shot_of(const ImageFile &file, const ColorChoice &color, int number
 
 void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int number)
 {
-    std::vector<std::string> roles = tool::known_roles(context_.get());
+    std::vector<std::string> roles = tool::known_roles(context_);
     const std::vector<LightGroup> groups = scene_groups();
     if (!groups.empty())
         roles.push_back(kLightGroup);
@@ -271,34 +254,29 @@ void Fogger::learn_roles(const ImageFile &file, const ColorChoice &color, int nu
     const std::vector<brume_layer> given = input_layers(roles);
     shot.format.inputs = given.data();
     shot.format.input_count = std::uint32_t(given.size());
-    brume_plan made = nullptr;
+    const Plan plan(scene_, shot.format);
     // What does not work here fails where the scene is planned as it is.
-    if (brume_plan_create(scene_.get(), &shot.format, &made) != BRUME_OK)
+    if (!plan)
         return;
-    const PlanHandle plan(made);
-    brume_plan_info info = BRUME_PLAN_INFO_INIT;
-    check_request(context_.get(), brume_plan_get_info(made, &info), "plan");
     known_roles_.clear();
     groups_.clear();
+    const std::vector<brume_plan_entry> entries = plan.entries();
     for (const std::string &role : roles)
-        for (std::uint32_t i = 0; i < info.entry_count; ++i) {
-            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
-            check_request(context_.get(), brume_plan_get_entry(made, i, &entry), "plan");
-            if (entry.runs && reads_layer(context_.get(), entry.effect, role)) {
+        for (const brume_plan_entry &entry : entries)
+            if (entry.runs && reads_layer(context_, entry.effect, role)) {
                 if (role == kLightGroup)
                     groups_ = groups;
                 else if (role != kShadow)
                     known_roles_.push_back(role);
                 break;
             }
-        }
 }
 
 std::vector<LightGroup> Fogger::scene_groups() const
 {
     std::vector<LightGroup> groups;
     for (std::uint32_t light = 0; light < scene_info_.light_count; ++light)
-        if (std::string name = said_of_light(brume_scene_light_group, scene_.get(), light); !name.empty())
+        if (std::string name = scene_.light_group(light); !name.empty())
             groups.push_back({light, std::move(name)});
     return groups;
 }
@@ -309,8 +287,8 @@ std::vector<OpenInput> Fogger::open_inputs(const ImageFile &file, const ColorCho
     return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, shadows_, limits);
 }
 
-brume_plan Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
-                            const std::vector<std::string> &roles, int number)
+Plan &Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+                       const std::vector<std::string> &roles, int number)
 {
     Shot shot = shot_of(file, color, number);
     if (options_.element && color.alpha.empty())
@@ -330,33 +308,32 @@ brume_plan Fogger::plan_for(const ImageFile &file, const ColorChoice &color, con
     const std::pair key{picture, roles};
     auto at = plans_.find(key);
     if (at == plans_.end()) {
-        check_request(context_.get(), brume_scene_set_luminance_weights(scene_.get(), weights.data()), file.path().string());
+        check_request(context_, scene_.set_luminance_weights(weights[0], weights[1], weights[2]), file.path().string());
         if (plans_.size() >= kMostPlans)
             plans_.clear();
-        brume_plan plan = nullptr;
-        check_request(context_.get(), brume_plan_create(scene_.get(), &shot.format, &plan), file.path().string());
-        at = plans_.emplace(key, PlanHandle(plan)).first;
+        Plan plan(scene_, shot.format);
+        check_request(context_, plan.status(), file.path().string());
+        at = plans_.emplace(key, std::move(plan)).first;
     }
-    brume_plan_info info = BRUME_PLAN_INFO_INIT;
-    check_request(context_.get(), brume_plan_get_info(at->second.get(), &info), file.path().string());
+    const brume_plan_info info = at->second.info();
     if (const std::uint32_t missing = info.camera_needs & ~shot.camera.given)
         throw RequestError(
             fmt::format("{}: {}", file.path().string(), missing_camera(missing, info.camera_reason, shot.camera_notes)));
-    return at->second.get();
+    return at->second;
 }
 
 /// The fog is linear in the picture, so what it makes of a black one is the medium's own light. Where the picture covers
 /// nothing the plate has that light already.
-void Fogger::take_uncovered_light(brume_plan plan, brume_frame call, Frame &frame) const
+void Fogger::take_uncovered_light(Plan &plan, brume_frame call, Frame &frame) const
 {
     std::vector<float> black(frame.pixels.size());
     for (std::size_t i = 3; i < black.size(); i += 4)
         black[i] = frame.pixels[i];
-    const brume_image image = host_image(black.data(), frame.width, frame.height, frame.channels);
+    const brume_image image = brume::image(black.data(), frame.width, frame.height, std::uint32_t(frame.channels));
     call.color = call.output = &image;
     call.outputs = nullptr;
     call.output_count = 0;
-    check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());
+    check_request(context_, plan.execute(call), frame.file.path().string());
     for (std::size_t i = 0; i + 3 < black.size(); i += 4)
         if (const float uncovered = 1 - std::clamp(frame.pixels[i + 3], 0.0f, 1.0f); uncovered > 0)
             for (std::size_t c = 0; c < 3; ++c)
@@ -369,10 +346,10 @@ try {
     for (const InputLayer &input : frame.inputs)
         if (std::find(roles.begin(), roles.end(), input.role) == roles.end())
             roles.push_back(input.role);
-    const brume_plan plan = plan_for(frame.file, frame.color, weights, roles, number);
+    Plan &plan = plan_for(frame.file, frame.color, weights, roles, number);
     const Shot shot = shot_of(frame.file, frame.color, number);
-    const brume_image color = host_image(frame.pixels.data(), frame.width, frame.height, frame.channels);
-    const brume_image depth = host_image(frame.depth.data(), frame.width, frame.height, 1);
+    const brume_image color = brume::image(frame.pixels.data(), frame.width, frame.height, std::uint32_t(frame.channels));
+    const brume_image depth = brume::image(frame.depth.data(), frame.width, frame.height, 1);
 
     std::vector<brume_image> images;
     std::vector<brume_layer> wanted;
@@ -382,9 +359,9 @@ try {
     for (const LayerOutput &output : outputs_) {
         layers.push_back({output.name, output.channels, output.type, {}});
         layers.back().pixels.resize(std::size_t(frame.width) * std::size_t(frame.height) * std::size_t(output.channels));
-        images.push_back(host_image(layers.back().pixels.data(), frame.width, frame.height, output.channels));
-        wanted.push_back(layer_named(output.layer.c_str(), &images.back()));
-        wanted.back().light = output.light;
+        images.push_back(
+            brume::image(layers.back().pixels.data(), frame.width, frame.height, std::uint32_t(output.channels)));
+        wanted.push_back(brume::layer(output.layer.c_str(), &images.back(), output.light));
     }
 
     brume_frame call = BRUME_FRAME_INIT;
@@ -397,23 +374,19 @@ try {
     inputs.give_to(call);
     call.camera = &shot.camera;
     call.frame = number;
-    check_request(context_.get(), brume_plan_execute(plan, &call), frame.file.path().string());
+    check_request(context_, plan.execute(call), frame.file.path().string());
     if (options_.element)
         take_uncovered_light(plan, call, frame);
 
     FogReport report;
     report.camera = shot.camera_source;
-    brume_plan_info info = BRUME_PLAN_INFO_INIT;
-    check_request(context_.get(), brume_plan_get_info(plan, &info), "plan");
+    const brume_plan_info info = plan.info();
     report.nothing_to_do = info.does_nothing != 0;
     if (info.camera_needs)
         report.warnings = shot.camera_notes;
-    for (std::uint32_t i = 0; i < info.entry_count; ++i) {
-        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
-        check_request(context_.get(), brume_plan_get_entry(plan, i, &entry), "plan");
+    for (const brume_plan_entry &entry : plan.entries())
         if (entry.runs)
             report.passes.push_back({entry.effect, entry.name, entry.measured_ms});
-    }
     return report;
 } catch (const RequestError &e) {
     // Once frames are being done, what is wrong is wrong with this frame.

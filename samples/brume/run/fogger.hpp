@@ -64,27 +64,28 @@ public:
 
     /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
     /// that nobody gave.
-    brume_plan plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
-                        const std::vector<std::string> &roles, int number);
+    Plan &plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
+                   const std::vector<std::string> &roles, int number);
 
     /// In place. Throws FrameError.
     FogReport fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers);
 
-    brume_context context() const { return context_.get(); }
+    const Context &context() const { return context_; }
     /// What the frames' attribute says of it.
     const std::string &provenance() const { return provenance_; }
     const brume_scene_info &scene_info() const { return scene_info_; }
     Shot shot_of(const ImageFile &file, const ColorChoice &color, int number) const;
 
 private:
+    Fogger(const FogOptions &options, const SceneText &text);
     void take_scene(const SceneText &text);
     void ask_for_quality();
     std::vector<LightGroup> scene_groups() const;
-    void take_uncovered_light(brume_plan plan, brume_frame call, Frame &frame) const;
+    void take_uncovered_light(Plan &plan, brume_frame call, Frame &frame) const;
 
     FogOptions options_;
-    ContextHandle context_;
-    SceneHandle scene_;
+    Context context_;
+    Scene scene_;
     std::string provenance_;
     CameraBlock scene_camera_;
     brume_scene_info scene_info_ = BRUME_SCENE_INFO_INIT;
@@ -94,7 +95,7 @@ private:
     std::vector<std::string> known_roles_;
     std::vector<LightGroup> groups_;
     std::vector<ShadowFile> shadows_;
-    std::map<std::pair<std::vector<double>, std::vector<std::string>>, PlanHandle> plans_;
+    std::map<std::pair<std::vector<double>, std::vector<std::string>>, Plan> plans_;
 };
 
 }  // namespace brume::tool

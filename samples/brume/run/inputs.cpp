@@ -68,7 +68,7 @@ void add_input_option(CLI::App &command, std::vector<std::string> &inputs)
         ->allow_extra_args(false);
 }
 
-std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<std::string> &texts)
+std::vector<InputRequest> parse_inputs(const Context &context, const std::vector<std::string> &texts)
 {
     std::vector<std::string> roles;
     for (const brume_layer_info &layer : all_layers(context, BRUME_LAYER_INPUT))
@@ -87,7 +87,7 @@ std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<
     return requests;
 }
 
-std::vector<std::string> known_roles(brume_context context)
+std::vector<std::string> known_roles(const Context &context)
 {
     std::vector<std::string> roles;
     for (const brume_layer_info &layer : all_layers(context, BRUME_LAYER_INPUT))

@@ -25,10 +25,10 @@ InputRequest parse_input(const std::string &text);
 void add_input_option(CLI::App &command, std::vector<std::string> &inputs);
 
 /// A role is an input layer that some effect or the library reads. Throws RequestError.
-std::vector<InputRequest> parse_inputs(brume_context context, const std::vector<std::string> &texts);
+std::vector<InputRequest> parse_inputs(const Context &context, const std::vector<std::string> &texts);
 
 /// Roles that some effect which is loaded reads, and that layers are taken for without being asked for.
-std::vector<std::string> known_roles(brume_context context);
+std::vector<std::string> known_roles(const Context &context);
 
 /// The layer of one light's own share of the picture.
 struct LightGroup {

@@ -55,35 +55,24 @@ std::optional<LayerOutput> find_output(const std::string &name, const std::vecto
 
 }  // namespace
 
-std::vector<brume_layer_info> layers_of(brume_context context, const char *effect)
-{
-    std::vector<brume_layer_info> layers(brume_layer_count(context, effect), brume_layer_info BRUME_LAYER_INFO_INIT);
-    for (std::size_t i = 0; i < layers.size(); ++i)
-        check_request(context, brume_layer_get_info(context, effect, std::uint32_t(i), &layers[i]), effect ? effect : "");
-    return layers;
-}
-
-std::vector<brume_layer_info> all_layers(brume_context context, std::uint32_t direction)
+std::vector<brume_layer_info> all_layers(const Context &context, std::uint32_t direction)
 {
     std::vector<brume_layer_info> all;
-    const auto add = [&](const char *effect) {
-        for (const brume_layer_info &layer : layers_of(context, effect))
+    const auto add = [&](const std::vector<brume_layer_info> &layers) {
+        for (const brume_layer_info &layer : layers)
             if (layer.flags & direction && std::none_of(all.begin(), all.end(), [&](const brume_layer_info &other) {
                     return std::string_view(other.name) == layer.name;
                 }))
                 all.push_back(layer);
     };
-    add(nullptr);
-    for (std::uint32_t i = 0; i < brume_effect_count(context); ++i) {
-        brume_effect_info effect = BRUME_EFFECT_INFO_INIT;
-        check_request(context, brume_effect_get_info(context, i, &effect), "");
+    add(context.library_layers());
+    for (const brume_effect_info &effect : context.effects())
         if (!effect.refusal)
-            add(effect.name);
-    }
+            add(context.layers(effect.name));
     return all;
 }
 
-std::vector<LayerOutput> parse_layers(brume_context context, const std::vector<std::string> &names)
+std::vector<LayerOutput> parse_layers(const Context &context, const std::vector<std::string> &names)
 {
     std::vector<LayerOutput> all, layers;
     std::vector<std::string> known;
@@ -112,7 +101,7 @@ std::vector<brume_layer> format_layers(const std::vector<LayerOutput> &outputs)
     std::vector<brume_layer> layers;
     for (const LayerOutput &output : outputs)
         if (std::none_of(layers.begin(), layers.end(), [&](const brume_layer &l) { return l.name == output.layer; }))
-            layers.push_back(layer_named(output.layer.c_str(), nullptr));
+            layers.push_back(brume::layer(output.layer.c_str()));
     return layers;
 }
 

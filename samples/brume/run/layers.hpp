@@ -8,11 +8,8 @@
 
 namespace brume::tool {
 
-/// The layers of one effect's table; `effect` null: those that the library reads itself.
-std::vector<brume_layer_info> layers_of(brume_context context, const char *effect);
-
 /// What all effects that are loaded and the library itself have in `direction` (BRUME_LAYER_INPUT or _OUTPUT), by name.
-std::vector<brume_layer_info> all_layers(brume_context context, std::uint32_t direction);
+std::vector<brume_layer_info> all_layers(const Context &context, std::uint32_t direction);
 
 /// A layer that the command line asked for.
 struct LayerOutput {
@@ -26,7 +23,7 @@ struct LayerOutput {
 
 /// What --layers names, each once; of a layer that there is for each light, its name and the light's number. Throws
 /// RequestError.
-std::vector<LayerOutput> parse_layers(brume_context context, const std::vector<std::string> &names);
+std::vector<LayerOutput> parse_layers(const Context &context, const std::vector<std::string> &names);
 
 /// As parts of a brume_format: each layer once.
 std::vector<brume_layer> format_layers(const std::vector<LayerOutput> &outputs);

@@ -18,12 +18,10 @@ SceneText read_scene(const std::string &path, const std::vector<std::string> &se
     return {{std::istreambuf_iterator<char>(in), {}}, path, set};
 }
 
-SceneHandle make_scene(brume_context context, const SceneText &text)
+Scene make_scene(const Context &context, const SceneText &text)
 {
-    brume_scene scene = nullptr;
-    check_request(context,
-                  brume_scene_create_from_text(context, text.text.data(), text.text.size(), text.name.c_str(), &scene), "");
-    SceneHandle handle(scene);
+    Scene scene(context, text.text, text.name);
+    check_request(context, scene.status(), "");
     for (const std::string &set : text.set) {
         const auto equals = set.find('=');
         const auto dot = set.rfind('.', equals);
@@ -31,11 +29,10 @@ SceneHandle make_scene(brume_context context, const SceneText &text)
             throw RequestError(fmt::format("--set '{}': expected EFFECT.PARAM=VALUE", set));
         const std::string effect = set.substr(0, dot), parameter = set.substr(dot + 1, equals - dot - 1),
                           value = set.substr(equals + 1);
-        check_request(context, brume_scene_set_text(scene, effect.c_str(), parameter.c_str(), value.c_str()),
-                      "--set " + set);
+        check_request(context, scene.set(effect, parameter, value), "--set " + set);
     }
     resolve_environment(context, scene);
-    return handle;
+    return scene;
 }
 
 }  // namespace brume::tool

@@ -17,6 +17,6 @@ struct SceneText {
 SceneText read_scene(const std::string &path, const std::vector<std::string> &set);
 
 /// With the environment image that it names. Throws RequestError.
-SceneHandle make_scene(brume_context context, const SceneText &scene);
+Scene make_scene(const Context &context, const SceneText &scene);
 
 }  // namespace brume::tool

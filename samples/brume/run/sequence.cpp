@@ -102,7 +102,7 @@ private:
                 const std::vector<OpenInput> inputs = fogger_.open_inputs(open.file, open.color, number, limits_);
                 fogger_.expect(open.file, open.color, open.depth_file ? *open.depth_file : open.file, open.depth, inputs,
                                number);
-                const brume_plan plan =
+                const Plan &plan =
                     fogger_.plan_for(open.file, open.color, io_.colors().luminance_weights(open.file.part(open.color.part)),
                                      roles_of(inputs), number);
                 // Once as read, once more as it is written, and the added layers as floats.
@@ -111,9 +111,7 @@ private:
                 const std::uint64_t pixels = std::uint64_t(part.width()) * std::uint64_t(part.height());
                 bytes += pixels * 12 * (options_.fog.layers.size() + inputs.size());
                 // One frame is fogged at a time: the plan's images, and colour, depth and output as the SDK holds them.
-                brume_plan_info info = BRUME_PLAN_INFO_INIT;
-                check_request(fogger_.context(), brume_plan_get_info(plan, &info), "");
-                fogging = info.image_bytes + pixels * (36 + 16 * inputs.size());
+                fogging = plan.info().image_bytes + pixels * (36 + 16 * inputs.size());
                 break;
             } catch (const FrameError &) {
             }
@@ -240,8 +238,7 @@ private:
 
     int finish()
     {
-        brume_context_info info = BRUME_CONTEXT_INFO_INIT;
-        check_request(fogger_.context(), brume_context_get_info(fogger_.context(), &info), "");
+        const brume_context_info info = fogger_.context().info();
         run_.backend = backend_name(info.backend);
         run_.device = info.device ? info.device : "";
         run_.scene = options_.fog.scene;

@@ -58,10 +58,12 @@ private:
 
 namespace detail {
 
-// Calls a function that copies text out as brume_message does.
+// Calls a function that copies text out as brume_message does. Some answer 0 on failure.
 template <class Copy> std::string copied_text(Copy copy)
 {
     std::string text(copy(nullptr, std::size_t(0)), '\0');
+    if (text.empty())
+        return text;
     copy(&text[0], text.size());
     text.pop_back();
     return text;
@@ -150,14 +152,19 @@ public:
         return all;
     }
 
-    Result trim() { return check(brume_context_trim(get())); }
-    Result calibrate() { return check(brume_context_calibrate(get())); }
+    // What an effect reads and fills; nothing of one that is not there.
+    std::vector<brume_layer_info> layers(const std::string &effect) const { return layers_of(effect.c_str()); }
+    // What the library reads itself, for all effects.
+    std::vector<brume_layer_info> library_layers() const { return layers_of(nullptr); }
+
+    Result trim() const { return check(brume_context_trim(get())); }
+    Result calibrate() const { return check(brume_context_calibrate(get())); }
     std::string calibration() const
     {
         return detail::copied_text(
             [&](char *to, std::size_t size) { return brume_context_calibration(get(), to, size); });
     }
-    Result set_calibration(std::string_view text)
+    Result set_calibration(std::string_view text) const
     {
         return check(brume_context_set_calibration(get(), text.data(), text.size()));
     }
@@ -169,6 +176,14 @@ public:
     }
 
 private:
+    std::vector<brume_layer_info> layers_of(const char *effect) const
+    {
+        std::vector<brume_layer_info> all(brume_layer_count(get(), effect), brume_layer_info BRUME_LAYER_INFO_INIT);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            check(brume_layer_get_info(get(), effect, std::uint32_t(i), &all[i]));
+        return all;
+    }
+
     std::shared_ptr<brume_context_t> handle_;
     brume_status status_ = BRUME_OK;
 };
@@ -237,6 +252,8 @@ public:
         return info;
     }
     Result set_quality(const brume_quality &quality) { return context_.check(brume_scene_set_quality(get(), &quality)); }
+    // Parameters are as they are set.
+    Result remove_quality() { return context_.check(brume_scene_set_quality(get(), nullptr)); }
     brume_quality quality() const
     {
         brume_quality quality = BRUME_QUALITY_INIT;
@@ -291,6 +308,7 @@ public:
     brume_plan get() const { return handle_.get(); }
     explicit operator bool() const { return handle_ != nullptr; }
     brume_status status() const { return status_; }
+    const Context &context() const { return context_; }
 
     brume_plan_info info() const
     {
@@ -305,6 +323,13 @@ public:
         for (std::size_t i = 0; i < all.size(); ++i)
             context_.check(brume_plan_get_entry(get(), std::uint32_t(i), &all[i]));
         return all;
+    }
+
+    // Another scene of the same structure, for the frames from now on.
+    Result update(const Scene &scene) { return context_.check(brume_plan_update(get(), scene.get(), nullptr)); }
+    Result update(const Scene &scene, const brume_format &format)
+    {
+        return context_.check(brume_plan_update(get(), scene.get(), &format));
     }
 
     Result execute(const brume_frame &frame) { return context_.check(brume_plan_execute(get(), &frame)); }
@@ -343,6 +368,16 @@ inline brume_image image(const float *data, std::int32_t width, std::int32_t hei
     image.height = height;
     image.channels = channels;
     return image;
+}
+
+// Keeps the pointers. Without an image, as formats have layers; `light` is of the layers that lights have one each of.
+inline brume_layer layer(const char *name, const brume_image *image = nullptr, std::uint32_t light = 0)
+{
+    brume_layer layer = BRUME_LAYER_INIT;
+    layer.name = name;
+    layer.image = image;
+    layer.light = light;
+    return layer;
 }
 
 // Packed halves, as their bits.

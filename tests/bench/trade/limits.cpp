@@ -36,7 +36,7 @@ Sample half_of(const Sample &sample, int first)
     return out;
 }
 
-Picture fogged(brume_context context, const SceneText &scene, const Sample &sample)
+Picture fogged(const brume::Context &context, const SceneText &scene, const Sample &sample)
 {
     SettingRun run(context, scene, nullptr, sample);
     run.execute();
@@ -50,7 +50,7 @@ double error(const Picture &a, const Sample &sample)
 
 }  // namespace
 
-std::vector<Limit> measure_limits(brume_context cpu, const Options &options, const std::vector<Case> &truths)
+std::vector<Limit> measure_limits(const brume::Context &cpu, const Options &options, const std::vector<Case> &truths)
 {
     std::vector<Limit> all;
     for (const Case &p : truths) {

@@ -13,6 +13,6 @@ struct Limit {
     double half_of_whole = 0, half_alone = 0;
 };
 
-std::vector<Limit> measure_limits(brume_context cpu, const Options &options, const std::vector<Case> &truths);
+std::vector<Limit> measure_limits(const brume::Context &cpu, const Options &options, const std::vector<Case> &truths);
 
 }  // namespace trade

@@ -19,7 +19,7 @@ using namespace trade;
 namespace {
 
 struct Device {
-    ContextHandle context;
+    brume::Context context;
     std::string name;
 };
 
@@ -28,9 +28,8 @@ std::vector<Device> devices()
     std::vector<Device> all;
     for (const std::string backend : {"cpu", "gl"})
         try {
-            ContextHandle context = create_context(backend);
-            brume_context_info info = BRUME_CONTEXT_INFO_INIT;
-            check_request(context.get(), brume_context_get_info(context.get(), &info), backend);
+            brume::Context context = create_context(backend);
+            const brume_context_info info = context.info();
             const std::string device =
                 info.backend == BRUME_BACKEND_CPU ? fmt::format("CPU, {} threads", info.threads) : info.device;
             all.push_back({std::move(context), device});
@@ -47,9 +46,9 @@ SetResult measure_set(const std::vector<Device> &on, const Set &set, BenchOption
     std::vector<std::vector<Group>> groups(on.size());
     for (const Case &p : set.pictures) {
         fmt::print(stderr, "{}, {}: {}\n", set.effect, set.name, p.sample.name);
-        const Reference reference = make_reference(on.front().context.get(), p.scene, p.sample, set.effect, options);
+        const Reference reference = make_reference(on.front().context, p.scene, p.sample, set.effect, options);
         for (std::size_t d = 0; d < on.size(); ++d) {
-            brume_context context = on[d].context.get();
+            const brume::Context &context = on[d].context;
             BenchReport report = report_for(context, p.scene, p.sample, options);
             report.copy_ms = copy_ms(p.sample, options.repeat);
             report.median_optical_depth = median_optical_depth(context, p.scene, p.sample);
@@ -90,7 +89,7 @@ try {
     Study study{options.seed, options.quick, {}, {}};
     for (const Set &set : all_sets(options))
         study.sets.push_back(measure_set(on, set, bench));
-    study.limits = measure_limits(on.front().context.get(), options, truth_pictures(options, false));
+    study.limits = measure_limits(on.front().context, options, truth_pictures(options, false));
     write_study(folders[2], study);
     return 0;
 } catch (const std::exception &e) {
