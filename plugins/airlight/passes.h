@@ -75,6 +75,8 @@ enum Slot {
 brume_status blobs_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status around_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
+// The same, of tier nodes.
+brume_status gather_nodes_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 // Of tier reference, in double; it has no shader.
 brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last);
 // layered: each colour has its own density.
