@@ -61,7 +61,7 @@ public:
         for (const InputLayer &input : inputs) {
             // Inputs are only read.
             images_.push_back(
-                host_image(const_cast<float *>(input.pixels.data()), input.width, input.height, input.channels));
+                host_image(const_cast<float *>(input.pixels->data()), input.width, input.height, input.channels));
             layers_.push_back(layer_named(input.role.c_str(), &images_.back()));
             layers_.back().light = input.light;
         }
@@ -232,7 +232,7 @@ void Fogger::expect(const ImageFile &file, const ColorChoice &color, const Image
     call.output_count = 1;
     std::vector<InputLayer> layers;
     for (const OpenInput &input : inputs)
-        layers.push_back(read_pixels(input, file, part));
+        layers.push_back(read_pixels(input, file, part, nullptr));
     const GivenLayers images(layers);
     images.give_to(call);
     call.camera = &shot.camera;
@@ -307,6 +307,14 @@ std::vector<OpenInput> Fogger::open_inputs(const ImageFile &file, const ColorCho
                                            const ReadLimits &limits) const
 {
     return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, shadows_, limits);
+}
+
+InputLayer Fogger::read_pixels(const OpenInput &input, const ImageFile &picture, const PartInfo &onto,
+                               const StoredPixels *stored) const
+{
+    const ImageFile &file = input.file ? *input.file : picture;
+    return input.choice.role == kShadow ? shadow_files_.read(file, input.choice)
+                                        : read_input(file, input.choice, onto, stored);
 }
 
 brume_plan Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
