@@ -1,5 +1,5 @@
 // Shadows of solid things: depth pictures from lights ("shadow maps"), and which parts of a ray they let a light shine on.
-// Needs data.glsl, ray.glsl, phase.glsl. Products "light_shadows" of brume_plugin.h:
+// Needs data.glsl, ray.glsl, phase.glsl, shadow_lit.glsl. Products "light_shadows" of brume_plugin.h:
 //
 //   light_shadows  5 texels per light: three rows that bring a point of camera space [m], 1 appended, into the space of the map's
 //                  camera; shadow_kind (0: no map), shadow_extent, 1 where distances are along rays, 0; x, y, width and height of
@@ -9,34 +9,8 @@
 #define SHADOW_MAP_IMAGES sampler2D light_shadows, sampler2D shadow_maps
 #define SHADOW_MAP_PASSED light_shadows, shadow_maps
 
-const int shadow_perspective = 1;
-const int shadow_latlong = 3;
-
-// A thing begins to shadow one texel's width behind its depth in the map, as wide as the texel is there: as far as a surface that
-// faces the light by half may be off its texel's centre.
-const float shadow_bias = R(1.0);
-
-// Depths of neighbours that differ by less, in texels' widths, are of one surface: what is between them is interpolated.
-const float shadow_slope = R(4.0);
-
 const int shadow_steps = 1024;  // along a ray at most; else one for each texel that it crosses
 const int shadow_halvings = 40;   // at most, of a step in which a shadow begins or ends
-
-// A ray of the camera on a light's map.
-struct ShadowRay {
-    int kind;          // 0: nothing of the ray is in a map
-    int along_ray;     // 1: the map has distances along its rays
-    ivec2 corner;      // of its rectangle
-    ivec2 size;
-    vec3 from;         // where the ray begins, in the space of the map's camera [m]
-    vec3 direction;
-    vec2 scale;        // texels per tangent, orthographic: per metre, lat-long: per radian; y as the image's rows run
-    float texel;       // a texel's width at distance 1, orthographic: anywhere
-    vec2 seen;         // the part of the ray that the map sees: beyond, all is lit
-    int steps;
-    float foot;        // where the ray is nearest to a lat-long map's place, and how far it is from there
-    float height;
-};
 
 // What a map brings: planar and along the ray in units, device as 1/m at 0 and at 1 or, of an orthographic map, normalized as [m].
 struct ShadowDepth {
@@ -71,54 +45,17 @@ PURE vec2 range_above(vec2 range, float at, float by)
     return by > R(0.0) ? vec2(max(range.x, t), range.y) : vec2(range.x, min(range.y, t));
 }
 
-PURE vec3 shadow_place(IN(ShadowRay) ray, float t)
-{
-    return ray.from + t * ray.direction;
-}
-
-// Position in the map, texel centres at half-integers.
-PURE vec2 shadow_position(IN(ShadowRay) ray, vec3 place)
-{
-    if (ray.kind == shadow_latlong) {
-        float across = sqrt(place.x * place.x + place.z * place.z);
-        vec2 angles = vec2(across > R(0.0) ? atan(place.x, -place.z) : R(0.0), atan(place.y, max(across, R(1e-20))));
-        return clamp(R(0.5) * vec2(float(ray.size.x), float(ray.size.y)) + ray.scale * angles, vec2(R(0.0)),
-                     vec2(float(ray.size.x), float(ray.size.y)));
-    }
-    float away = ray.kind == shadow_perspective ? max(-place.z, R(1e-20)) : R(1.0);
-    vec2 size = vec2(float(ray.size.x), float(ray.size.y));
-    return clamp(R(0.5) * size + ray.scale * vec2(place.x / away, place.y / away), vec2(R(0.0)), size);
-}
-
-// Where the ray is step `step` of `steps`: even in the map.
-PURE float shadow_step(IN(ShadowRay) ray, int step)
-{
-    float s = float(step) / float(ray.steps);
-    if (ray.kind == shadow_latlong && step > 0 && step < ray.steps) {
-        // Even in the angle that the ray sweeps.
-        float first = atan(ray.seen.x - ray.foot, ray.height);
-        float at = first + s * (atan(ray.seen.y - ray.foot, ray.height) - first);
-        return clamp(ray.foot + ray.height * sin(at) / max(cos(at), R(1e-20)), ray.seen.x, ray.seen.y);
-    }
-    if (ray.kind == shadow_perspective) {
-        float first = -shadow_place(ray, ray.seen.x).z;
-        float last = -shadow_place(ray, ray.seen.y).z;
-        s = s * first / max((R(1.0) - s) * last + s * first, R(1e-30));
-    }
-    return step >= ray.steps ? ray.seen.y : mix(ray.seen.x, ray.seen.y, s);
-}
-
 // The part [from, to] of a ray.
 PURE ShadowRay shadow_section(ShadowRay ray, float from, float to)
 {
     ray.seen = vec2(max(ray.seen.x, from), min(ray.seen.y, to));
     if (ray.kind == shadow_latlong) {
         float swept = atan(ray.seen.y - ray.foot, ray.height) - atan(ray.seen.x - ray.foot, ray.height);
-        ray.steps = clamp(int(swept / ray.texel) + 1, 1, shadow_steps);
+        ray.steps = float(clamp(int(swept / ray.texel) + 1, 1, shadow_steps));
         return ray;
     }
     vec2 way = shadow_position(ray, shadow_place(ray, ray.seen.y)) - shadow_position(ray, shadow_place(ray, ray.seen.x));
-    ray.steps = clamp(int(max(abs(way.x), abs(way.y))) + 1, 1, shadow_steps);
+    ray.steps = float(clamp(int(max(abs(way.x), abs(way.y))) + 1, 1, shadow_steps));
     return ray;
 }
 
@@ -135,7 +72,7 @@ PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int shadowed, in
     ray.scale = vec2(R(1.0));
     ray.texel = R(0.0);
     ray.seen = vec2(R(0.0), distance);
-    ray.steps = 1;
+    ray.steps = R(1.0);
     ray.foot = R(0.0);
     ray.height = R(0.0);
     if (shadowed == 0)
@@ -186,41 +123,6 @@ PURE ShadowRay shadow_ray(IN(Camera) camera, SHADOW_MAP_IMAGES, int shadowed, in
     return ray;
 }
 
-// Depth that the map has there [m]; far_away where nothing is.
-PURE float shadow_depth_at(sampler2D shadow_maps, IN(ShadowRay) ray, int x, int y)
-{
-    if (ray.kind == shadow_latlong)
-        x = x < 0 ? x + ray.size.x : x >= ray.size.x ? x - ray.size.x : x;
-    return texelFetch(shadow_maps, ray.corner + ivec2(clamp(x, 0, ray.size.x - 1), clamp(y, 0, ray.size.y - 1)), 0).x;
-}
-
-// Whether the light reaches the ray at t.
-PURE bool is_lit(sampler2D shadow_maps, IN(ShadowRay) ray, float t)
-{
-    if (t < ray.seen.x || t > ray.seen.y)
-        return true;
-    vec3 place = shadow_place(ray, t);
-    vec2 position = shadow_position(ray, place);
-    bool radial = ray.kind == shadow_latlong || (ray.kind == shadow_perspective && ray.along_ray == 1);
-    float there = radial ? length(place) : -place.z;
-    float depth = shadow_depth_at(shadow_maps, ray, int(position.x), int(position.y));
-    float width = ray.kind == shadow_perspective || ray.kind == shadow_latlong ? ray.texel * depth : ray.texel;
-    // What the neighbours say could not change it.
-    if (abs(there - depth) > (shadow_slope + shadow_bias) * width)
-        return there <= depth;
-    int x = int(floor(position.x - R(0.5)));
-    int y = int(floor(position.y - R(0.5)));
-    float a = shadow_depth_at(shadow_maps, ray, x, y);
-    float b = shadow_depth_at(shadow_maps, ray, x + 1, y);
-    float c = shadow_depth_at(shadow_maps, ray, x, y + 1);
-    float d = shadow_depth_at(shadow_maps, ray, x + 1, y + 1);
-    if (max(max(a, b), max(c, d)) - min(min(a, b), min(c, d)) < shadow_slope * width) {
-        float u = position.x - R(0.5) - float(x);
-        depth = mix(mix(a, b, u), mix(c, d, u), position.y - R(0.5) - float(y));
-    }
-    return there <= depth + shadow_bias * width;
-}
-
 // The lit parts up to `end` one after another: begin with lit_walk(), then next_lit() gives one each time, empty after the last.
 struct LitWalk {
     int step;   // -1 stands for the ray's begin, steps + 1 for its end
@@ -242,10 +144,10 @@ PURE LitWalk next_lit(sampler2D shadow_maps, IN(ShadowRay) ray, LitWalk walk, fl
         walk.at = end;
         return walk;
     }
-    while (walk.step <= ray.steps) {
+    while (float(walk.step) <= ray.steps) {
         float low = walk.at;
         walk.step += 1;
-        bool outside = walk.step > ray.steps;
+        bool outside = float(walk.step) > ray.steps;
         float high = outside ? ray.seen.y : shadow_step(ray, walk.step);
         bool now = outside || is_lit(shadow_maps, ray, high);
         walk.at = high;

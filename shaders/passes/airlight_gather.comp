@@ -16,6 +16,8 @@
 #include "lit.glsl"
 #include "octahedral.glsl"
 #include "shadow.glsl"
+#include "value.glsl"
+#include "shadow_lit.glsl"
 #include "shadow_map.glsl"
 #include "surroundings.glsl"
 #include "airlight.glsl"

@@ -3,6 +3,8 @@
 #include "ray.glsl"
 #include "data.glsl"
 #include "phase.glsl"
+#include "value.glsl"
+#include "shadow_lit.glsl"
 #include "shadow_map.glsl"
 
 uniform ShadowDepth depth;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files.hpp"
+#include "run/shadow_files.hpp"
 
 namespace brume::tests {
 namespace {
@@ -124,6 +125,31 @@ TEST_F(Shadows, AllAroundTheLamp)
         EXPECT_EQ(r.status, 2) << wrong;
         EXPECT_NE(r.err.find("expected"), std::string::npos) << r.err;
     }
+}
+
+// A map that stands still is in memory once, however many frames are read.
+TEST_F(Shadows, AreReadAnewOnlyWhereTheFileIsAnotherOrNew)
+{
+    const auto written = fs::file_time_type::clock::now() - std::chrono::hours(1);
+    const auto write = [&](const char *name, double left, std::chrono::seconds later) {
+        write_map(name, left);
+        fs::last_write_time(folder_ / name, written + later);
+    };
+    tool::ShadowFiles files;
+    const auto pixels = [&](const char *name, std::uint32_t light) {
+        const tool::ImageFile file(folder_ / name);
+        return files.read(file, tool::resolve_shadow(file, "", light)).pixels;
+    };
+    write("key.exr", 1, {});
+    write("rim.exr", 2, {});
+    const auto key = pixels("key.exr", 0), rim = pixels("rim.exr", 1);
+    EXPECT_EQ(pixels("key.exr", 0), key);
+    EXPECT_EQ(pixels("rim.exr", 1), rim);
+    EXPECT_EQ(rim->front(), 2);
+    write("key.exr", 3, std::chrono::seconds(1));
+    EXPECT_EQ(pixels("key.exr", 0)->front(), 3);
+    EXPECT_EQ(pixels("rim.exr", 0)->front(), 2);
+    EXPECT_EQ(key->front(), 1) << "of a frame that is still under way";
 }
 
 // Of a map that was rendered in part, the rest shows nothing.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -195,6 +196,57 @@ TEST(Lanes, PixelsAsOneByOne)
                             << "value " << v << " of depth " << depths[i] << ", kind " << c.depth_kind << ", sky " << c.sky;
                 }
             }
+}
+
+// Things of all sizes, between the camera and a light that looks down on its rays.
+TEST(Lanes, ShadowsAsPixelsOneByOne)
+{
+    constexpr int side = 64;
+    std::mt19937 random(11);
+    const auto between = [&](double a, double b) { return float(std::uniform_real_distribution<>(a, b)(random)); };
+    std::vector<float> map(side * side, f32::far_away);
+    for (int thing = 0; thing < 60; ++thing) {
+        const int x = int(between(0, side - 1)), y = int(between(0, side - 1)), size = int(between(1, 9));
+        const float depth = between(0.5, 6);
+        for (int i = y; i < std::min(y + size, side); ++i)
+            for (int k = x; k < std::min(x + size, side); ++k)
+                map[size_t(i * side + k)] = depth;
+    }
+    const f32::Texture shadow_maps{map.data(), side, side, side, 1};
+    f32::Camera camera{};
+    camera.tangent_scale.y = -1;
+    int dark = 0, partly = 0;
+    for (int kind = 1; kind <= 3; ++kind) {
+        std::vector<float> rows(4096);
+        const float above[] = {1, 0, 0, -3, 0,    0,   -1, -6, 0, 1, 0, -4, float(kind), kind == 2 ? 5.0f : 1.0f,
+                               0, 0, 0, 0,  side, side};
+        std::copy(std::begin(above), std::end(above), rows.begin());
+        const f32::Texture light_shadows{rows.data(), 4096, 1024, 1, 4};
+        for (int group = 0; group < 40; ++group) {
+            std::vector<f32::ShadowRay> rays;
+            std::vector<float> ends;
+            for (int i = 0; i < 8; ++i) {
+                const f32::vec3 d(between(0.1, 0.6), between(-0.2, 0.1), -1);
+                ends.push_back(i == 3 ? 0 : between(4, 25));
+                rays.push_back(f32::shadow_ray(camera, light_shadows, shadow_maps, 1, 0, d / f32::length(d), ends.back()));
+            }
+            const float from = between(0, 12), to = from + between(0.3, 4);
+            const std::vector<float> found = IN_BOTH(lit_shares(shadow_maps, rays, from, to));
+            for (size_t i = 0; i < 8; ++i) {
+                float lit = 0;
+                const float end = std::max(ends[i], to);
+                for (f32::LitWalk walk = f32::next_lit(shadow_maps, rays[i], f32::lit_walk(0), end);
+                     walk.part.x < walk.part.y; walk = f32::next_lit(shadow_maps, rays[i], walk, end))
+                    lit += std::max(std::min(walk.part.y, to) - std::max(walk.part.x, from), 0.0f);
+                const float share = lit / (to - from);
+                EXPECT_NEAR(found[i], share, 2e-3) << "kind " << kind << ", group " << group << ", ray " << i;
+                dark += share < 0.01f;
+                partly += share > 0.01f && share < 0.99f;
+            }
+        }
+    }
+    EXPECT_GT(dark, 30);
+    EXPECT_GT(partly, 150);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Method `maps` on the CPU.
 #include <algorithm>
+#include <memory>
 
 #include "lanes.hpp"
 #include "maps/passes.h"
@@ -21,7 +22,7 @@ const Constants &constants_of(const brume_plugin_rows &call)
 // Whether the pixels' own ways differ too much for them to go side by side.
 bool needs_pixels(const Constants &constants)
 {
-    return constants.estimate || constants.airlight.orders != scalar::orders_single || constants.airlight.shadowed ||
+    return constants.estimate || constants.airlight.orders != scalar::orders_single ||
            constants.grid.cell < 2 * constants.reduction;
 }
 

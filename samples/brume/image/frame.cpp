@@ -83,14 +83,15 @@ InputLayer read_input(const ImageFile &file, const InputChoice &choice, const Pa
     InputLayer input{choice.role, onto.width(), onto.height(), int(choice.channels.size()), {}};
     input.light = choice.light.value_or(0);
     const std::size_t stride = choice.channels.size(), count = std::size_t(part.width()) * std::size_t(part.height());
-    input.pixels.resize(count * stride);
+    std::vector<float> pixels(count * stride);
     for (std::size_t c = 0; c < stride; ++c) {
-        stored->to_floats(choice.channels[c], input.pixels.data() + c, stride);
-        to_shares(part.find(choice.channels[c])->type, input.pixels.data() + c, count, stride);
+        stored->to_floats(choice.channels[c], pixels.data() + c, stride);
+        to_shares(part.find(choice.channels[c])->type, pixels.data() + c, count, stride);
     }
     if (part.data_window != onto.data_window)
-        input.pixels = place(input.pixels, stride, part.data_window, onto.data_window,
-                             choice.role == "transmittance" ? 1.0f : 0.0f, input.outside);
+        pixels = place(pixels, stride, part.data_window, onto.data_window, choice.role == "transmittance" ? 1.0f : 0.0f,
+                       input.outside);
+    input.pixels = std::make_shared<const std::vector<float>>(std::move(pixels));
     return input;
 }
 
@@ -100,8 +101,9 @@ InputLayer read_shadow(const ImageFile &file, const InputChoice &choice)
     InputLayer input{choice.role, part.display_window.width(), part.display_window.height(), 1, {}};
     input.light = choice.light.value_or(0);
     std::uint64_t outside = 0;
-    input.pixels = place(read_channel(file, choice.part, choice.channels.front()), 1, part.data_window, part.display_window,
-                         std::numeric_limits<float>::infinity(), outside);
+    input.pixels = std::make_shared<const std::vector<float>>(place(read_channel(file, choice.part, choice.channels.front()),
+                                                                    1, part.data_window, part.display_window,
+                                                                    std::numeric_limits<float>::infinity(), outside));
     return input;
 }
 

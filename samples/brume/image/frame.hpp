@@ -17,9 +17,9 @@ struct InputLayer {
     std::string role;
     int width, height;
     int channels = 3;
-    std::vector<float> pixels;  ///< interleaved
-    std::uint64_t outside = 0;  ///< pixels without a sample
-    std::uint32_t light = 0;    ///< as InputChoice has it
+    std::shared_ptr<const std::vector<float>> pixels;  ///< interleaved
+    std::uint64_t outside = 0;                         ///< pixels without a sample
+    std::uint32_t light = 0;                           ///< as InputChoice has it
 };
 
 /// A picture ready for the library, and all that is needed to write it back without losing anything.

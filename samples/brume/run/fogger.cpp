@@ -48,7 +48,7 @@ public:
     {
         images_.reserve(inputs.size());
         for (const InputLayer &input : inputs) {
-            images_.push_back(brume::image(input.pixels.data(), input.width, input.height, std::uint32_t(input.channels)));
+            images_.push_back(brume::image(input.pixels->data(), input.width, input.height, std::uint32_t(input.channels)));
             layers_.push_back(brume::layer(input.role.c_str(), &images_.back(), input.light));
         }
     }
@@ -215,7 +215,7 @@ void Fogger::expect(const ImageFile &file, const ColorChoice &color, const Image
     call.output_count = 1;
     std::vector<InputLayer> layers;
     for (const OpenInput &input : inputs)
-        layers.push_back(read_pixels(input, file, part));
+        layers.push_back(read_pixels(input, file, part, nullptr));
     const GivenLayers images(layers);
     images.give_to(call);
     call.camera = &shot.camera;
@@ -285,6 +285,14 @@ std::vector<OpenInput> Fogger::open_inputs(const ImageFile &file, const ColorCho
                                            const ReadLimits &limits) const
 {
     return tool::open_inputs(file, color, number, inputs_, known_roles_, groups_, shadows_, limits);
+}
+
+InputLayer Fogger::read_pixels(const OpenInput &input, const ImageFile &picture, const PartInfo &onto,
+                               const StoredPixels *stored) const
+{
+    const ImageFile &file = input.file ? *input.file : picture;
+    return input.choice.role == kShadow ? shadow_files_.read(file, input.choice)
+                                        : read_input(file, input.choice, onto, stored);
 }
 
 Plan &Fogger::plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,

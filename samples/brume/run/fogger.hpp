@@ -12,6 +12,7 @@
 #include "run/inputs.hpp"
 #include "run/layers.hpp"
 #include "run/scene.hpp"
+#include "run/shadow_files.hpp"
 #include "support/sdk.hpp"
 #include "run/shot.hpp"
 
@@ -62,6 +63,11 @@ public:
     std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &color, int number,
                                        const ReadLimits &limits) const;
 
+    /// The pixels of one of them. stored: every channel of the choice's part of the picture, where they have been read
+    /// already. May be called from any thread.
+    InputLayer read_pixels(const OpenInput &input, const ImageFile &picture, const PartInfo &onto,
+                           const StoredPixels *stored) const;
+
     /// Makes the plan for such a picture, and throws RequestError where the scene cannot be planned for it or needs a camera
     /// that nobody gave.
     Plan &plan_for(const ImageFile &file, const ColorChoice &color, const LuminanceWeights &weights,
@@ -95,6 +101,7 @@ private:
     std::vector<std::string> known_roles_;
     std::vector<LightGroup> groups_;
     std::vector<ShadowFile> shadows_;
+    mutable ShadowFiles shadow_files_;
     std::map<std::pair<std::vector<double>, std::vector<std::string>>, Plan> plans_;
 };
 

@@ -129,12 +129,6 @@ std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &col
     return inputs;
 }
 
-InputLayer read_pixels(const OpenInput &input, const ImageFile &picture, const PartInfo &onto, const StoredPixels *stored)
-{
-    const ImageFile &file = input.file ? *input.file : picture;
-    return input.choice.role == "shadow" ? read_shadow(file, input.choice) : read_input(file, input.choice, onto, stored);
-}
-
 std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs)
 {
     std::vector<std::string> roles;

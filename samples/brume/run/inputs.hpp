@@ -55,10 +55,6 @@ std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &col
                                    const std::vector<LightGroup> &groups, const std::vector<ShadowFile> &shadows,
                                    const ReadLimits &limits);
 
-/// The pixels of one of them. stored: every channel of the choice's part of the picture, where they have been read already.
-InputLayer read_pixels(const OpenInput &input, const ImageFile &picture, const PartInfo &onto,
-                       const StoredPixels *stored = nullptr);
-
 /// Each once.
 std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs);
 

@@ -57,7 +57,8 @@ Frame PictureIo::read(const Fogger &fogger, LuminanceWeights &weights, FrameStat
     Frame frame = read_frame(std::move(open.file), open.color, &depth);
     for (const OpenInput &input : inputs) {
         const bool with_color = !input.file && input.choice.part == frame.color.part;
-        frame.inputs.push_back(read_pixels(input, frame.file, frame.part(), with_color ? frame.stored.get() : nullptr));
+        frame.inputs.push_back(
+            fogger.read_pixels(input, frame.file, frame.part(), with_color ? frame.stored.get() : nullptr));
         stats.inputs.emplace_back(name_of(input), description(input));
         if (frame.inputs.back().outside > 0)
             warnings.push_back(fmt::format("{} pixels are outside the data window of the input {} and count as {}",
