@@ -3,10 +3,12 @@
 #include <stdexcept>
 #include <thread>
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 #include "plan/backend.h"
 #include "base/error.h"
@@ -108,6 +110,23 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     std::vector<std::pair<int, Clock::time_point>> marks_;
+};
+
+/// Debian's TBB is built without the thread sanitizer, which therefore does not see what was done before what.
+struct Handover {
+#ifdef __SANITIZE_THREAD__
+    void give()
+    {
+        __tsan_release(this);
+    }
+    void take()
+    {
+        __tsan_acquire(this);
+    }
+#else
+    void give() {}
+    void take() {}
+#endif
 };
 
 class CpuBackend : public Backend {
@@ -248,21 +267,19 @@ public:
         const std::thread::id caller = std::this_thread::get_id();
         const int32_t grain = std::min(pass.grain, height);
         const int32_t blocks = height / grain + (height % grain != 0);
-        arena_.execute([&] {
-            oneapi::tbb::parallel_for(0, blocks, [&](int32_t block) {
-                if (status != BRUME_OK)
-                    return;
-                const auto last = int32_t(std::min<int64_t>(height, (int64_t(block) + 1) * grain));
-                brume_status result = pass.function(&call, block * grain, last);
-                // Only the thread of the API call may report, between the blocks that it takes itself.
-                const int32_t rows = done += last - block * grain;
-                if (watch && std::this_thread::get_id() == caller &&
-                    !watch->progress.report(watch->from + (watch->to - watch->from) * rows / height))
-                    result = BRUME_ERROR_CANCELLED;
-                brume_status none = BRUME_OK;
-                if (result != BRUME_OK)
-                    status.compare_exchange_strong(none, result);
-            });
+        for_blocks(blocks, [&](int32_t block) {
+            if (status != BRUME_OK)
+                return;
+            const auto last = int32_t(std::min<int64_t>(height, (int64_t(block) + 1) * grain));
+            brume_status result = pass.function(&call, block * grain, last);
+            // Only the thread of the API call may report, between the blocks that it takes itself.
+            const int32_t rows = done += last - block * grain;
+            if (watch && std::this_thread::get_id() == caller &&
+                !watch->progress.report(watch->from + (watch->to - watch->from) * rows / height))
+                result = BRUME_ERROR_CANCELLED;
+            brume_status none = BRUME_OK;
+            if (result != BRUME_OK)
+                status.compare_exchange_strong(none, result);
         });
         return status;
     }
@@ -279,12 +296,24 @@ private:
 
     template <class Function> void for_rows(int height, Function function)
     {
+        constexpr int together = 16;
+        for_blocks((height + together - 1) / together, [&](int block) {
+            for (int y = block * together; y < std::min(height, (block + 1) * together); ++y)
+                function(y);
+        });
+    }
+
+    template <class Function> void for_blocks(int count, Function function)
+    {
+        Handover handover;
         arena_.execute([&] {
-            oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, height, 16),
-                                      [&](const oneapi::tbb::blocked_range<int> &range) {
-                                          for (int y = range.begin(); y < range.end(); ++y)
-                                              function(y);
-                                      });
+            handover.give();
+            oneapi::tbb::parallel_for(0, count, [&](int block) {
+                handover.take();
+                function(block);
+                handover.give();
+            });
+            handover.take();
         });
     }
 

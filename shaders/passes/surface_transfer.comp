@@ -12,6 +12,8 @@
 #include "lit.glsl"
 #include "octahedral.glsl"
 #include "shadow.glsl"
+#include "value.glsl"
+#include "shadow_lit.glsl"
 #include "shadow_map.glsl"
 #include "airlight.glsl"
 #include "lamp_field.glsl"
