@@ -61,40 +61,12 @@ struct Pass {
     return scalar::next_lit(pass.shadow_maps, ray, walk, end);
 }
 
-// Where a term or Gaussian is integrated.
-struct Span {
-    bool empty;
-    scalar::Path path;
-};
-
-[[gnu::noinline]] Span span_of(const Pass &pass, const scalar::Sight &sight, const scalar::Light &light,
-                               const scalar::Aspect &aspect, int part, const scalar::vec3 &terms, const scalar::vec2 &lit)
+[[gnu::noinline]] scalar::Span span_of(const Pass &pass, const scalar::Sight &sight, const scalar::Light &light,
+                                       const scalar::Aspect &aspect, int part, const scalar::vec3 &terms,
+                                       const scalar::vec2 &lit)
 {
-    using namespace brume::maths_float;
-    if (part == part_terms) {
-        const vec2 range(std::max(lit.x, terms.x), std::min(lit.y, terms.y));
-        return range.x < range.y ? Span{false, terms_path(pass.medium, light, aspect, range, terms.z)} : Span{true, {}};
-    }
-    const Gaussian g = listed_gaussian(pass.gaussians, pass.tile_gaussians, sight, part);
-    const float middle = sight_profile(pass.medium, pass.camera, g, sight.direction).middle, radius = 1 / g.scale;
-    const vec2 range(std::max(lit.x, middle - 4 * radius), std::min(lit.y, middle + 4 * radius));
-    return range.x < range.y ? Span{false, blob_path(light, aspect, middle, radius, range, pass.settings.near_radii)}
-                             : Span{true, {}};
-}
-
-// The end of panel_of() of airlight_parts.glsl.
-scalar::Panel scalar_panel(const scalar::Path &path, float dz, const scalar::vec3 &sum, float (&value)[8], float noise)
-{
-    const scalar::vec2 rest = scalar::panel_rest(value);
-    const float upper = rest.x, fall = rest.y;
-    float error = upper * fall * fall * fall;
-    if (path.kind == scalar::path_bell)
-        error = dz == 1 ? 0.04f * upper * fall : 0.5f * error * fall;
-    else if (path.crowded == 2)
-        error = dz == 1 ? 0.35f * upper * fall : 0.7f * error * fall;
-    else if (path.crowded == 0)
-        error *= 2 * fall;
-    return {sum, error + 9e-8f * noise, upper * fall * fall};
+    return scalar::span_of(pass.medium, pass.camera, pass.settings, pass.gaussians, pass.tile_gaussians, sight, light,
+                           aspect, part, terms, lit);
 }
 
 // airlight_at() where the nodes of panels are no matter: many Gaussians.

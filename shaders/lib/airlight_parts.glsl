@@ -113,6 +113,22 @@ PURE vec2 panel_rest(float value[8])
     return vec2(upper, min(upper / max(lower, R(1e-37)), R(1.0)));
 }
 
+// A panel of these nodes' sum and values, and of the rounding errors that they come to.
+PURE Panel finished_panel(IN(Path) path, float dz, vec3 sum, float value[8], float noise)
+{
+    vec2 rest = panel_rest(value);
+    float upper = rest.x;
+    float fall = rest.y;
+    float error = upper * fall * fall * fall;
+    if (path.kind == path_bell)
+        error = dz == R(1.0) ? R(0.04) * upper * fall : R(0.5) * error * fall;
+    else if (path.crowded == 2)
+        error = dz == R(1.0) ? R(0.35) * upper * fall : R(0.7) * error * fall;
+    else if (path.crowded == 0)
+        error *= R(2.0) * fall;
+    return Panel(sum, error + R(9e-8) * noise, upper * fall * fall);
+}
+
 // The integral over z in [z, z + dz].
 PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler2D tile_gaussians, IN(Sight) sight, int index,
                     IN(Light) light, IN(Aspect) aspect, int part, IN(Path) path, float z, float dz)
@@ -169,17 +185,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         sum += weight * f;
         noise += weight * value[k] * (digits + depth);
     }
-    vec2 rest = panel_rest(value);
-    float upper = rest.x;
-    float fall = rest.y;
-    float error = upper * fall * fall * fall;
-    if (path.kind == path_bell)
-        error = dz == R(1.0) ? R(0.04) * upper * fall : R(0.5) * error * fall;
-    else if (path.crowded == 2)
-        error = dz == R(1.0) ? R(0.35) * upper * fall : R(0.7) * error * fall;
-    else if (path.crowded == 0)
-        error *= R(2.0) * fall;
-    return Panel(sum, error + R(9e-8) * noise, upper * fall * fall);
+    return finished_panel(path, dz, sum, value, noise);
 }
 
 // The part of the ray where the constant and exponential terms scatter: x, y from where P is a share of what it comes to
@@ -258,6 +264,26 @@ PURE vec2 lit_piece(IN(Light) light, vec3 direction, float distance, int piece)
     return piece == 0 ? vec2(outer.x, inner.x) : piece == 1 ? inner : vec2(inner.y, outer.y);
 }
 
+// Where a term or Gaussian is integrated.
+struct Span {
+    bool empty;
+    Path path;
+};
+
+PURE Span span_of(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, sampler2D gaussians,
+                  sampler2D tile_gaussians, IN(Sight) sight, IN(Light) light, IN(Aspect) aspect, int part, vec3 terms, vec2 lit)
+{
+    if (part == part_terms) {
+        vec2 range = vec2(max(lit.x, terms.x), min(lit.y, terms.y));
+        return Span(range.x >= range.y, terms_path(medium, light, aspect, range, terms.z));
+    }
+    Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, part);
+    float middle = sight_profile(medium, camera, g, sight.direction).middle;
+    float radius = R(1.0) / g.scale;
+    vec2 range = vec2(max(lit.x, middle - R(4.0) * radius), min(lit.y, middle + R(4.0) * radius));
+    return Span(range.x >= range.y, blob_path(light, aspect, middle, radius, range, settings.near_radii));
+}
+
 // Adds what one light sends from a part of the ray that no map has in shadow: each term and Gaussian by itself, panel by panel,
 // halving those whose error is too large for the whole.
 PURE Airlight light_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, SHADOW_IMAGES,
@@ -270,26 +296,14 @@ PURE Airlight light_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSe
         if (lit.x >= lit.y)
             continue;
         for (int part = has_terms ? part_terms : 0; part < sight.count; ++part) {
-            vec2 range;
-            float middle = R(0.0);
-            float radius = R(0.0);
-            if (part == part_terms) {
-                range = vec2(max(lit.x, terms.x), min(lit.y, terms.y));
-            } else {
-                Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, part);
-                middle = sight_profile(medium, camera, g, sight.direction).middle;
-                radius = R(1.0) / g.scale;
-                range = vec2(max(lit.x, middle - R(4.0) * radius), min(lit.y, middle + R(4.0) * radius));
-            }
-            if (range.x >= range.y)
+            Span span = span_of(medium, camera, settings, gaussians, tile_gaussians, sight, light, aspect, part, terms, lit);
+            if (span.empty)
                 continue;
-            Path path = part == part_terms ? terms_path(medium, light, aspect, range, terms.z)
-                                           : blob_path(light, aspect, middle, radius, range, settings.near_radii);
             int left = settings.panels;
             float z = R(0.0);
-            float dz = path.crowded == 1 ? R(0.5) : R(1.0);
+            float dz = span.path.crowded == 1 ? R(0.5) : R(1.0);
             while (z < R(1.0)) {
-                Panel panel = panel_of(medium, camera, SHADOW_PASSED, tile_gaussians, sight, index, light, aspect, part, path, z, dz);
+                Panel panel = panel_of(medium, camera, SHADOW_PASSED, tile_gaussians, sight, index, light, aspect, part, span.path, z, dz);
                 --left;
                 vec3 so_far = total.radiance + panel.sum;
                 if (panel.doubt > settings.tolerance * (so_far.x + so_far.y + so_far.z) / R(3.0) && left > 0) {

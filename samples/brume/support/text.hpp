@@ -8,10 +8,13 @@
 
 namespace brume::tool {
 
-/// Damaged files put control characters and broken UTF-8 into names; a message may quote them, a terminal must not obey
-/// them.
+/// Damaged files put control characters and broken UTF-8 into names, and megabytes of them; a message may quote them, a
+/// terminal must not obey them.
 inline std::string printable(std::string text)
 {
+    constexpr std::size_t most = 4096;
+    if (text.size() > most)
+        text.replace(most, std::string::npos, " ...");
     for (char &c : text)
         if ((unsigned char)c < 0x20 || c == 0x7f)
             c = '?';
