@@ -218,6 +218,13 @@ TEST_F(Bench, MeasuresWhatAPluginSaysOfItself)
             names.push_back(row.setting.name);
         }
     EXPECT_EQ(names, (std::vector<std::string>{"defaults", "masking false", "kernel paper"}));
+
+    const SceneText clear{R"({"brume":1,"effects":{"well_behaved":{}}})", "clear.json", {}};
+    EXPECT_EQ(effects_to_measure(context, clear, sample), std::vector<std::string>{"well_behaved"});
+    EXPECT_EQ(median_optical_depth(context, clear, sample), 0);
+    const Group plain =
+        measure_group(context, clear, sample, make_reference(context, clear, sample, "well_behaved", {}), 1, {});
+    EXPECT_EQ(error_of(plain.without_fog.reference.value()), 0);
 }
 
 TEST_F(Bench, RefusesWhatIsNotThereOrFitsNot)

@@ -45,9 +45,13 @@ template <class Work> double median_of(int repeat, const Work &work)
 
 std::vector<float> optical_depths(const Context &context, const SceneText &scene, const Sample &sample)
 {
+    std::vector<float> tau(sample.depth.size());
+    // Without a medium nothing fills the layer; effects of others may run all the same.
+    const auto json = nlohmann::json::parse(scene.text, nullptr, false);
+    if (!json.is_object() || !json.contains("medium"))
+        return tau;
     SettingRun run(context, scene, nullptr, sample, "optical_depth");
     run.execute();
-    std::vector<float> tau(sample.depth.size());
     for (std::size_t i = 0; i < tau.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
             tau[i] += float(sample.weights[c]) * run.extra()[3 * i + c];

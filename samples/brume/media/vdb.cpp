@@ -149,8 +149,11 @@ VdbDensity density_of(const std::string &text)
 
 VdbDensity read_vdb(const std::filesystem::path &path, const std::string &name)
 {
-    // OpenVDB follows whatever offsets and sizes a damaged file has.
-    return density_of(isolated(path.string(), [&] { return text_of(read_here(path, name)); }));
+    // OpenVDB follows whatever offsets and sizes a damaged file has. Whole ones unpack to no more than this.
+    std::error_code none;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, none);
+    const std::uint64_t most = (std::uint64_t(2) << 30) + 256 * (none ? 0 : std::min<std::uint64_t>(bytes, 1ull << 48));
+    return density_of(isolated(path.string(), most, [&] { return text_of(read_here(path, name)); }));
 }
 
 }  // namespace brume::tool
