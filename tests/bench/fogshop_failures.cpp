@@ -17,7 +17,7 @@ using namespace fog;
 
 namespace {
 
-constexpr int width = 128, height = 96, gap = 2;
+constexpr int width = 64, height = 48, gap = 1;
 constexpr const char *tiers[] = {"fogshop", "maps", "nodes"};
 
 // What is close to black and white in all pictures.
@@ -40,14 +40,14 @@ Json lamp_beside_puffs()
 Json pierced_tube()
 {
     Json density{constant(0.05)};
-    constexpr int around = 16, along = 13;
+    constexpr int around = 10, along = 7;
     for (int i = 0; i < along; ++i)
         for (int k = 0; k < around; ++k) {
-            const double turn = 2 * std::numbers::pi * k / around, x = 0.4 * (i - along / 2);
+            const double turn = 2 * std::numbers::pi * k / around, x = 0.6 * (i - along / 2);
             // The hole, as the camera sees it above the middle.
-            if (std::abs(i - along / 2) <= 1 && std::abs(k - around / 4) <= 1)
+            if (i == along / 2 && std::abs(k - around / 4) <= 1)
                 continue;
-            density.push_back(gaussian({x, std::sin(turn) - 0.9, -6 + std::cos(turn)}, 1 / 0.3, 4));
+            density.push_back(gaussian({x, std::sin(turn) - 0.9, -6 + std::cos(turn)}, 1 / 0.45, 3));
         }
     return lit_scene({{"scattering", 0.8}, {"density", density}}, Json::array({point_light({0, -1.3, -6}, 40, 0.05)}));
 }
@@ -66,7 +66,7 @@ void draw(Canvas &canvas, int top, const char *name, const Json &scene)
     for (int i = 0; i < width * height; ++i)
         mean += double(reference.at(i % width, i / width)[1]) / (width * height);
     const auto put = [&](int column, int y, int x, double value) {
-        const double grey = shown(value / mean);
+        const double grey = shown(0.3 * value / mean);
         canvas.set(column * (width + gap) + x, y, {grey, grey, grey});
     };
     for (int column = 0; column <= int(std::size(tiers)); ++column) {
@@ -96,7 +96,7 @@ int main(int argc, char **argv)
         std::cerr << "usage: fogshop_failures FOLDER\n";
         return 2;
     }
-    Canvas canvas(4 * width + 3 * gap, 4 * height + 3 * gap, 2);
+    Canvas canvas(4 * width + 3 * gap, 4 * height + 3 * gap, 4);
     draw(canvas, 0, "a lamp beside puffs", lamp_beside_puffs());
     draw(canvas, 2 * (height + gap), "a pierced tube", pierced_tube());
     canvas.write(std::string(argv[1]) + "/fogshop_failures.png");
