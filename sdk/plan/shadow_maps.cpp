@@ -118,10 +118,13 @@ brume_pass make_pass(brume_host_t &host, const char *file, const brume_slot (&sl
 
 Rectangle pack(std::vector<Rectangle> &rectangles, int32_t largest)
 {
-    std::vector<size_t> order(rectangles.size());
+    // Kept from frame to frame, which allocate nothing once warm.
+    thread_local std::vector<size_t> order;
+    order.resize(rectangles.size());
     std::iota(order.begin(), order.end(), size_t(0));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return rectangles[a].height > rectangles[b].height; });
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+        return rectangles[a].height != rectangles[b].height ? rectangles[a].height > rectangles[b].height : a < b;
+    });
     double area = 0;
     int32_t widest = 1;
     for (const Rectangle &r : rectangles) {

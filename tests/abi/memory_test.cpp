@@ -115,6 +115,26 @@ std::string lit_scene(int lights, int gaussians, const char *medium)
 
 class Frames : public EachBackend {
 protected:
+    void expect_no_allocations(const std::string &text)
+    {
+        Scene scene = make_scene(context, text.c_str());
+        Plan plan = make_plan(context, scene, ray_format(32, 32));
+        Picture color(32, 32), depth(32, 32, {.channels = 1}), output(32, 32);
+        paint(color);
+        paint_depth(depth);
+        brume_image color_image = color.image(), depth_image = depth.image(), output_image = output.image();
+        brume_frame frame = BRUME_FRAME_INIT;
+        frame.color = &color_image;
+        frame.depth = &depth_image;
+        frame.output = &output_image;
+        for (int i = 0; i < 12; ++i)
+            ASSERT_EQ(brume_plan_execute(plan.get(), &frame), BRUME_OK);
+        const size_t before = allocations;
+        for (int i = 0; i < 10; ++i)
+            brume_plan_execute(plan.get(), &frame);
+        EXPECT_EQ(allocations - before, 0u) << "in ten frames";
+    }
+
     double milliseconds(brume_plan plan, const Picture &color, const Picture &depth, Picture &output, int frames)
     {
         using Clock = std::chrono::steady_clock;
@@ -132,22 +152,19 @@ INSTANTIATE_EACH_BACKEND(Frames);
 // As brume_plan_create() in brume.h says.
 TEST_P(Frames, AllocateNothingOnceWarm)
 {
-    Scene scene = make_scene(context, lit_scene(4, 6, R"("scattering": 0.03)").c_str());
-    Plan plan = make_plan(context, scene, ray_format(32, 32));
-    Picture color(32, 32), depth(32, 32, {.channels = 1}), output(32, 32);
-    paint(color);
-    paint_depth(depth);
-    brume_image color_image = color.image(), depth_image = depth.image(), output_image = output.image();
-    brume_frame frame = BRUME_FRAME_INIT;
-    frame.color = &color_image;
-    frame.depth = &depth_image;
-    frame.output = &output_image;
-    for (int i = 0; i < 12; ++i)
-        ASSERT_EQ(brume_plan_execute(plan.get(), &frame), BRUME_OK);
-    const size_t before = allocations;
-    for (int i = 0; i < 10; ++i)
-        brume_plan_execute(plan.get(), &frame);
-    EXPECT_EQ(allocations - before, 0u) << "in ten frames";
+    expect_no_allocations(lit_scene(4, 6, R"("scattering": 0.03)"));
+}
+
+TEST_P(Frames, WithShadowsAllocateNothingOnceWarm)
+{
+    std::string text = lit_scene(3, 20, R"("scattering": 0.03)");
+    for (size_t at = 0; (at = text.find("\"radius\"", at)) != std::string::npos; at += 30)
+        text.insert(at, R"("shadow": "screen", )");
+    // Wide enough for cells of several pixels, whose pixels go side by side.
+    for (size_t at = 0; (at = text.find("\"scale\": 1", at)) != std::string::npos; ++at)
+        text.replace(at, 10, "\"scale\": 0.1");
+    text.back() = ',';
+    expect_no_allocations(text + R"("effects": {"airlight": {"tier": "maps", "orders": "single"}}})");
 }
 
 // Of 4,096 lights, and of 10,000 Gaussians, that stand still. Meant to be below .02 ms; ten times as much is left to busy

@@ -1,6 +1,5 @@
 // Method `maps` on the CPU.
 #include <algorithm>
-#include <memory>
 
 #include "lanes.hpp"
 #include "maps/passes.h"
