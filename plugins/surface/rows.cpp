@@ -75,7 +75,7 @@ const Rows &rows_for(const brume_plugin_rows &call)
 {
     namespace maths = brume::maths_float;
     const auto &settings = constants_of(call).settings;
-    if (settings.method != maths::method_calibrated || settings.environment_order > 0 || settings.shadowed ||
+    if (settings.method != maths::method_calibrated || settings.environment_order > 0 ||
         maths::may_have(settings, maths::without_suns))
         return pixels::rows;
     return BRUME_OF_THIS_MACHINE(rows);
