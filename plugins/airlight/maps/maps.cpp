@@ -87,9 +87,10 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
     if (brume_status s = create(services, host, pass("grid", lights_slots, 16), "airlight_map_lights.comp",
                                 pass_text("airlight_map_lights.comp"), "", rows.lights, m.lights_pass))
         return s;
-    return create(
-        services, host, pass("gather", gather_slots, 4), "airlight_map_gather.comp", pass_text("airlight_map_gather.comp"),
-        define("ESTIMATE", state.error != nullptr) + define("ORDERS", gathers_orders(state)), rows.gather, m.gather_pass);
+    return create(services, host, pass(maps_gather, gather_slots, 4), "airlight_map_gather.comp",
+                  pass_text("airlight_map_gather.comp"),
+                  define("ESTIMATE", state.error != nullptr) + define("ORDERS", gathers_orders(state)), rows.gather,
+                  m.gather_pass);
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     const maps::Fineness fineness = maps::fineness_of(p.max_error);
     MapsOffer offer{maps::sizes_of(scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, fineness,
                                    uint64_t(p.memory * 1e6)),
-                    false, 0};
+                    false, 0, 0, 0};
     offer.suits = p.max_error >= least_error && offer.sizes.fine &&
                   (scene.gaussians ? scene.gaussian_count >= fewest_gaussians : scene.gaussian_count > 0);
     // Orders beyond the first go pixel by pixel.
@@ -111,14 +112,18 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
                  side = fineness.side, of_list = 40 * std::sqrt(1 + 0.1 * scene.gaussian_count),
                  points = double(corners(state.width, offer.sizes.cell)) * corners(state.height, offer.sizes.cell);
     const double of_backend = request.backend == BRUME_BACKEND_GL ? 6 : 1;  // software GL, as the others are counted
-    offer.operations = of_backend * (pixels * slices * (8 + 6 * looked_up) + points * (slices * (4 + 6 * lights) + of_list) +
-                                     lights * side * side * of_list);
+    // Where neighbours have cells of their own, the CPU takes them one by one.
+    const double of_pixel = request.backend == BRUME_BACKEND_CPU && offer.sizes.cell < 2 * p.reduction ? 7 : 1;
+    offer.of_pixels = of_backend * of_pixel * pixels * slices * (8 + 6 * looked_up);
+    offer.of_grid = of_backend * points * (slices * (4 + 6 * lights) + of_list);
+    offer.of_maps = of_backend * lights * side * side * of_list;
     return offer;
 }
 
 brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene,
-                       const maps::Sizes &sizes, State &state)
+                       const MapsOffer &offer, State &state)
 {
+    const maps::Sizes &sizes = offer.sizes;
     const Parameters &p = state.parameters;
     const maps::Fineness fineness = maps::fineness_of(p.max_error);
     Maps &m = state.maps;
@@ -165,12 +170,12 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
             entry("maps",
                   std::to_string(s.side) + " x " + std::to_string(s.side) + " directions, " + std::to_string(s.nodes) +
                       " distances around each light, when a light or the medium moved",
-                  lights * double(map_bytes), 0))
+                  lights * double(map_bytes), offer.of_maps))
         return e;
     if (brume_status e = entry("grid",
                                "cells of " + std::to_string(s.cell) + " px, " + std::to_string(s.slices) + " distances, " +
                                    std::to_string((sizes.bytes + 500000) / 1000000) + " MB, when something moved",
-                               points * 32, points * 4 * lights))
+                               points * 32, offer.of_grid))
         return e;
     return create_map_passes(services, host, state);
 }
