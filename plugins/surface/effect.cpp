@@ -218,6 +218,8 @@ brume_status Planner::plan_groups(double pixels, double of_light)
 {
     if (!request_.layers[layer_light_group])
         return entry(false, "group", "no layer light_group: shares by what lights give in clear air", 0, 0);
+    // Images that a program reads are 16 at most on some drivers.
+    state_->composes_groups = !state_->sky && !state_->shadowed;
     for (int i = 0; i < 2; ++i) {
         if (brume_status s = image("surface rest", state_->rest[i]))
             return s;
@@ -247,7 +249,9 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     if (brume_status s = plan_method())
         return s;
     state_->shadowed = has_shadows();
-    state_->material = request_.layers[layer_albedo] != 0;
+    state_->material = !request_.layers[layer_albedo]                                        ? 0
+                       : request_.layers[layer_specular] && request_.layers[layer_roughness] ? 2
+                                                                                             : 1;
     state_->sky = scene_.environment_count > 0;
     if (brume_status s = plan_transfer(pixels, of_light))
         return s;
@@ -263,7 +267,7 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
     if (brume_status s = entry(true, "compose", about(state_->method), pixels * (16 + 4 + 16 + 16),
                                pixels * (40 + (state_->rest[0] ? 0 : lights * of_light))))
         return s;
-    if (brume_status s = create_passes(services_, host_, *state_))
+    if (brume_status s = create_passes(services_, host_, request_, *state_))
         return s;
     out = std::move(state_);
     return BRUME_OK;

@@ -6,10 +6,14 @@
 
 namespace surface {
 
+// Lights' own layers that one run of a pass takes.
+constexpr int groups_at_once = 4;
+
 // Of all passes; each reads what concerns it.
 struct Constants {
     brume::maths_float::SurfaceSettings settings;
-    int32_t light;
+    brume::maths_float::ivec4 of_lights;  // whose layers they are
+    int32_t groups;
     int32_t first;
 };
 
@@ -18,64 +22,42 @@ namespace normals {
 enum Slot { depth, normals, slot_count };
 }
 
-namespace transfer {
+// What passes that go through lights begin with: the first `of_all`, and but for surfaces' transfer the others. Programs
+// leave out what they do not read.
+namespace shared {
 enum Slot {
     depth,
     normals,
     lights,
     ungrouped,
     gaussians,
-    environment,
-    in_axes,
     table,
     albedo,
-    transfer_0,
-    transfer_1,
-    transfer_2,
-    transfer_3,
-    transfer_4,
-    transfer_5,
-    brought,
-    slot_count
+    of_all,
+    specular = of_all,
+    roughness,
+    rest,
+    lit,
+    group_0,
+    slot_count = group_0 + groups_at_once
 };
+}
+
+namespace transfer {
+enum Slot { environment = shared::of_all, in_axes, transfer_0, brought = transfer_0 + 6, slot_count };
 }
 
 namespace group {
-enum Slot {
-    rest,
-    lit,
-    group,
-    depth,
-    normals,
-    lights,
-    gaussians,
-    table,
-    albedo,
-    specular,
-    roughness,
-    rest_out,
-    lit_out,
-    slot_count
-};
+enum Slot { rest_out = shared::slot_count, lit_out, slot_count };
 }
 
+// Where there is a sky or a shadow map, these come in the place of lights' own layers: passes have 16 images to read.
 namespace compose {
 enum Slot {
-    color,
-    rest,
-    lit,
-    depth,
-    normals,
-    lights,
-    ungrouped,
-    gaussians,
-    environment,
-    table,
-    albedo,
-    specular,
-    roughness,
+    environment = shared::group_0,
     light_shadows,
     shadow_maps,
+    color = shared::slot_count,
     result,
     surface_out,
     slot_count

@@ -36,19 +36,20 @@ struct World {
             lights.push_back(light_at(data.texture(), i));
     }
 
-    Surface surface_at_pixel(int x, int y, float depth, vec3 normal) const
+    Surface surface_of_pixel(const brume_plugin_rows &call, int x, int y) const
     {
-        return surface_at(pixel_ray(camera, vec2(x, y) + 0.5, depth),
+        const vec3 normal = wide(call.slots[shared::normals], x, y);
+        return surface_at(pixel_ray(camera, vec2(x, y) + 0.5, *at(call.slots[shared::depth], x, y)),
                           around.world_normals ? in_camera(camera, normal) : normal);
     }
-    Material material_at(const brume_plugin_pixels &albedo, const brume_plugin_pixels &specular,
-                         const brume_plugin_pixels &roughness, int x, int y) const
+    Material material_of_pixel(const brume_plugin_rows &call, int x, int y) const
     {
         if (around.material == 0)
             return unknown_material();
         const bool glossy = around.material > 1;
-        return material_of(around.material, wide(albedo, x, y), glossy ? wide(specular, x, y) : vec3(0),
-                           glossy ? *at(roughness, x, y) : 1);
+        return material_of(around.material, wide(call.slots[shared::albedo], x, y),
+                           glossy ? wide(call.slots[shared::specular], x, y) : vec3(0),
+                           glossy ? *at(call.slots[shared::roughness], x, y) : 1);
     }
 
     Medium medium;
@@ -100,50 +101,58 @@ vec3 lit_by_quadrature(const World &world, const Surface &surface, Light lamp, c
     return glm::min(sum, vec3(radiance_limit));
 }
 
+// The picture is reduced by the lights' own layers that the pass is given.
+Divided divided(const World &world, const brume_plugin_rows &call, const Surface &surface, const Material &material, int x,
+                int y)
+{
+    const Constants &constants = *static_cast<const Constants *>(call.constants);
+    const brume_plugin_pixels *slots = call.slots;
+    Divided pixel{wide(slots[shared::rest], x, y), constants.first ? vec3(0) : wide(slots[shared::lit], x, y)};
+    for (int g = 0; g < constants.groups; ++g) {
+        const vec3 own = finite_or_zero(wide(slots[shared::group_0 + g], x, y));
+        vec3 becomes = own;
+        if (surface.seen)
+            becomes = lit_by_quadrature(world, surface, world.lights[size_t(constants.of_lights[g])], material, own);
+        pixel = {pixel.rest - own, glm::min(pixel.lit + becomes, vec3(radiance_limit))};
+    }
+    return pixel;
+}
+
 }  // namespace
 
 brume_status group_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
-    const Constants &constants = *static_cast<const Constants *>(call->constants);
     const World world(*call);
     const brume_plugin_pixels *slots = call->slots;
     return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
-        const Surface surface =
-            world.surface_at_pixel(x, y, *at(slots[group::depth], x, y), wide(slots[group::normals], x, y));
-        const vec3 own = finite_or_zero(wide(slots[group::group], x, y));
-        vec3 becomes = own;
-        if (surface.seen)
-            becomes = lit_by_quadrature(
-                world, surface, world.lights[size_t(constants.light)],
-                world.material_at(slots[group::albedo], slots[group::specular], slots[group::roughness], x, y), own);
-        const vec3 lit = constants.first ? vec3(0) : wide(slots[group::lit], x, y);
-        store(slots[group::rest_out], x, y, {vec3(wide(slots[group::rest], x, y) - own), 1.0f});
-        store(slots[group::lit_out], x, y, {glm::min(lit + becomes, vec3(radiance_limit)), 1.0f});
+        const Divided after =
+            divided(world, *call, world.surface_of_pixel(*call, x, y), world.material_of_pixel(*call, x, y), x, y);
+        store(slots[group::rest_out], x, y, {vec3(after.rest), 1.0f});
+        store(slots[group::lit_out], x, y, {vec3(after.lit), 1.0f});
     });
 }
 
 brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
 {
     namespace narrow = brume::maths_float;
-    const Constants &constants = *static_cast<const Constants *>(call->constants);
     const World world(*call);
     const narrow::Camera camera = narrow::camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
     const narrow::Texture light_shadows = narrow::texture_of(slots[compose::light_shadows]),
                           shadow_maps = narrow::texture_of(slots[compose::shadow_maps]);
-    const brume_plugin_pixels &sky_pixels = slots[compose::environment], &ungrouped = slots[compose::ungrouped];
+    const brume_plugin_pixels &sky_pixels = slots[compose::environment], &ungrouped = slots[shared::ungrouped];
     const Data environment =
-        sky_pixels.data ? Data(sky_pixels.data, size_t(sky_pixels.width) * size_t(sky_pixels.height), sky_pixels.channels)
-                        : Data(nullptr, 0, 4);
+        world.around.environment_order > 0
+            ? Data(sky_pixels.data, size_t(sky_pixels.width) * size_t(sky_pixels.height), sky_pixels.channels)
+            : Data(nullptr, 0, 4);
     return brume_pixels::for_pixels(*call, first, last, [&](int x, int y) {
         const brume_pixels::vec4 source = brume_pixels::load(slots[compose::color], x, y);
-        const Surface surface =
-            world.surface_at_pixel(x, y, *at(slots[compose::depth], x, y), wide(slots[compose::normals], x, y));
+        const Surface surface = world.surface_of_pixel(*call, x, y);
         vec3 shown(source);
         if (surface.seen) {
-            const Material material =
-                world.material_at(slots[compose::albedo], slots[compose::specular], slots[compose::roughness], x, y);
-            const vec3 rest = finite_or_zero(constants.first ? vec3(source) : wide(slots[compose::rest], x, y));
+            const Material material = world.material_of_pixel(*call, x, y);
+            const Divided pixel = divided(world, *call, surface, material, x, y);
+            const vec3 rest = finite_or_zero(pixel.rest);
             vec3 all(0), sum = rest;
             auto irradiance = [&](size_t l) {
                 const narrow::Surface point{true, narrow::vec3(surface.point), narrow::vec3(surface.normal)};
@@ -165,8 +174,7 @@ brume_status compose_reference_rows(const brume_plugin_rows *call, int32_t first
                     sum += lit_by_quadrature(world, surface, world.lights[l], material, own) - own;
             }
             sum = glm::max(sum, glm::min(rest, vec3(0)));
-            if (!constants.first)
-                sum += wide(slots[compose::lit], x, y);
+            sum += pixel.lit;
             for (int c = 0; c < 3; ++c)
                 shown[c] = composed(source[c], 0, sum[c], call->scene->output_limit);
         }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include <brume/brume_plugin.h>
@@ -28,6 +29,20 @@ enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_turned, up
 // Of more Gaussians than these the light's way is not followed through: each costs every pixel and lamp.
 constexpr uint32_t most_gaussians = 256;
 
+// A pass for what scenes of the plan are without (SurfaceSettings::without), from the most to what fits all.
+struct Variants {
+    struct Variant {
+        int without;
+        brume_pass pass;
+    };
+    std::vector<Variant> all;
+
+    const Variant &fitting(int without) const
+    {
+        return *std::find_if(all.begin(), all.end(), [&](const Variant &v) { return (v.without & ~without) == 0; });
+    }
+};
+
 // What one plan of this effect holds. Images and passes that a plan does not need are NULL.
 struct State {
     int width = 0;
@@ -40,24 +55,23 @@ struct State {
     brume_plugin_image lit[2] = {};
     int transfer = 0;  // degrees that frames bring of the surfaces' transfer
 
-    bool shadowed = false;  // some light has a shadow map
-    bool material = false;  // frames bring albedo
-    bool sky = false;       // the scene has an environment
+    bool shadowed = false;         // some light has a shadow map
+    int material = 0;              // as SurfaceSettings has it
+    bool sky = false;              // the scene has an environment
+    bool composes_groups = false;  // the last pass takes layers of lights, too
 
     brume_plugin_image table = nullptr;  // the method's
     brume_plugin_image ungrouped = nullptr, environment = nullptr;
-    brume_plugin_image turned = nullptr;  // the environment in the transfer's axes
-    std::vector<float> ungrouped_values, environment_values, turned_values;
+    brume_plugin_image turned = nullptr;                            // the environment in the transfer's axes
+    std::vector<float> ungrouped_values, environment_values, axes;  // as they were uploaded, and the camera's
 
     brume_pass normals_pass = nullptr;
-    // By whether lights are lamps alone: software OpenGL runs both sides of branches, so that every lamp would pay for suns.
-    brume_pass transfer_pass[2] = {};
-    brume_pass group_pass[2] = {};
-    brume_pass compose_pass[2] = {};
+    Variants transfer_pass, group_pass, compose_pass;
 };
 
 // At planning, when the entries are there.
-brume_status create_passes(const brume_services &services, brume_host host, State &state);
+brume_status create_passes(const brume_services &services, brume_host host, const brume_plugin_request &request,
+                           State &state);
 
 // One frame's passes, in order.
 brume_status run_passes(const brume_services &services, brume_host host, const brume_plugin_frame &frame, State &state);

@@ -61,37 +61,6 @@ PURE Received received_of_sun(IN(SurfaceSettings) settings, float scattering, fl
     return Received(field.straight, field.down * R(0.5) * (R(1.0) + normal_up));
 }
 
-// By how much a light's part of the picture changes where nobody knows what the surface is of; of suns by method calibrated alone,
-// else theirs stays as it is.
-PURE vec3 share_of_light(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                         IN(Light) light, sampler2D gaussians, sampler2D table)
-{
-    bool sun = settings.lamps_alone == 0 && light.type == light_directional;
-    if (!sun && settings.method == method_calibrated)
-        return share_of_lamp(medium, colours, settings, surface, light, gaussians);
-    if (sun && settings.method != method_calibrated)
-        return vec3(R(1.0));
-    SunSlant slant = SunSlant(vec3(R(0.0)), R(1.0));
-    if (sun)
-        slant = sun_slant(medium, light.direction, surface.point);
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
-    float cosine = cosine_to(surface, light);
-    vec3 share = vec3(R(1.0));
-    for (int c = 0; c < 3; ++c) {
-        if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1])
-            share[c] = share[c - 1];
-        else {
-            float scattering = min(medium.scattering[c] * p, orders_depth_limit);
-            float absorption = min(medium.absorption[c] * p, orders_depth_limit);
-            Received r = sun ? received_of_sun(settings, scattering, absorption, medium.asymmetry, slant.cosine,
-                                               cosine_up(surface, slant.up))
-                             : published(settings.method, table, scattering, absorption, cosine);
-            share[c] = r.along + r.aside / max(cosine, least_cosine);
-        }
-    }
-    return share;
-}
-
 // Of a pixel; parts: as SurfaceSettings::material.
 PURE Material material_at(int parts, sampler2D albedo, sampler2D specular, sampler2D roughness, ivec2 p)
 {
@@ -108,16 +77,15 @@ PURE Material material_at(int parts, sampler2D albedo, sampler2D specular, sampl
 
 // What arrives of a sun by method calibrated.
 PURE Arrived arrived_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up,
-                            float normal_up, float mirrored_up, IN(Facing) facing, float exponent)
+                            float normal_up, float mirrored_up, IN(Facing) facing, IN(Shine) shine)
 {
     float kept = exp(-(scattering + absorption));
     Received r = received_of_sun(settings, scattering, absorption, asymmetry, sun_up, normal_up);
     // Radiance from above is even but for the sun's own forward peak.
     float sky = R(0.5) * (R(1.0) + clamp(mirrored_up, R(-1.0), R(1.0)));
-    float width = asymmetry * (exponent + R(1.0)) / (exponent + R(2.0));
     return Arrived(r.along, kept, r.aside,
                    r.aside / max(pi * R(0.5) * (R(1.0) + normal_up), R(1e-6)) * sky +
-                       max(r.along - kept, R(0.0)) * henyey_greenstein(width, facing.mirror_cosine));
+                       max(r.along - kept, R(0.0)) * henyey_greenstein(asymmetry * shine.cosine, facing.mirror_cosine));
 }
 
 // What arrives of a lamp by a published method.
@@ -132,43 +100,62 @@ PURE Arrived arrived_as_published(int method, sampler2D table, float scattering,
     return Arrived(r.along, exp(-(scattering + absorption)), r.aside, mirrored);
 }
 
-// What a light's part of the picture becomes: `own`, and what the medium brings to where it is not.
-PURE vec3 lit_by_light(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                       IN(Light) light, IN(Material) material, sampler2D gaussians, sampler2D table, vec3 own)
+// Of one colour, at these coefficients and this int rho dt.
+PURE Arrived arrived_of(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, sampler2D table, float scattering,
+                        float absorption, float p, bool sun, IN(SunSlant) slant, IN(Facing) facing, IN(Material) material,
+                        IN(Shine) shine)
 {
-    bool sun = settings.lamps_alone == 0 && light.type == light_directional;
+    float s = min(scattering * p, orders_depth_limit);
+    float a = min(absorption * p, orders_depth_limit);
+    if (sun)
+        return arrived_of_sun(settings, s, a, medium.asymmetry, slant.cosine, cosine_up(surface, slant.up),
+                              dot(shine.mirrored, slant.up), facing, shine);
+    return arrived_as_published(settings.method, table, s, a, facing, material.exponent, shine.gloss != vec3(R(0.0)));
+}
+
+// Without a material it changes by a factor; light that is flat counts as if it were not.
+PURE float share_of_arrived(IN(Arrived) arrived, float cosine)
+{
+    return arrived.along + arrived.aside / max(cosine, least_cosine);
+}
+
+// What becomes of a light's part of the picture; of suns by method calibrated alone, else theirs stays as it is.
+PURE Change change_by_light(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
+                            IN(Light) light, IN(Material) material, IN(Shine) shine, sampler2D gaussians, sampler2D table)
+{
+    bool sun = may_have(settings, without_suns) && light.type == light_directional;
     if (!sun && settings.method == method_calibrated)
-        return lit_by_one_lamp(medium, colours, settings, surface, light, material, gaussians, own);
-    if (!material.known || (sun && settings.method != method_calibrated) || !has_normal(surface))
-        return own * share_of_light(medium, colours, settings, surface, light, gaussians, table);
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
-    Shine shine = shine_of(surface, material);
-    Facing facing = facing_of(surface, light, material, shine);
+        return change_by_lamp(medium, colours, settings, surface, light, material, shine, gaussians);
+    if (sun && settings.method != method_calibrated)
+        return scaled_by(vec3(R(1.0)));
     SunSlant slant = SunSlant(vec3(R(0.0)), R(1.0));
     if (sun)
         slant = sun_slant(medium, light.direction, surface.point);
-    vec3 sum = vec3(R(0.0));
-    Arrived arrived = Arrived(R(0.0), R(0.0), R(0.0), R(0.0));
-    for (int c = 0; c < 3; ++c) {
-        if (c == 0 || medium.scattering[c] != medium.scattering[c - 1] || medium.absorption[c] != medium.absorption[c - 1]) {
-            float scattering = min(medium.scattering[c] * p, orders_depth_limit);
-            float absorption = min(medium.absorption[c] * p, orders_depth_limit);
-            if (sun)
-                arrived = arrived_of_sun(settings, scattering, absorption, medium.asymmetry, slant.cosine,
-                                         cosine_up(surface, slant.up), dot(shine.mirrored, slant.up), facing, material.exponent);
-            else
-                arrived = arrived_as_published(settings.method, table, scattering, absorption, facing, material.exponent,
-                                               shine.gloss != vec3(R(0.0)));
-        }
-        sum[c] = reflected(arrived, facing, light.intensity[c], material.albedo[c], shine.gloss[c], own[c]);
-    }
-    return sum;
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
+    Facing facing = facing_of(surface, light, material, shine, true);
+    Arrived red = arrived_of(medium, settings, surface, table, medium.scattering.x, medium.absorption.x, p, sun, slant, facing,
+                             material, shine);
+    Arrived green = red;
+    if (!green_as_red(medium))
+        green = arrived_of(medium, settings, surface, table, medium.scattering.y, medium.absorption.y, p, sun, slant, facing, material,
+                           shine);
+    Arrived blue = green;
+    if (!blue_as_green(medium))
+        blue = arrived_of(medium, settings, surface, table, medium.scattering.z, medium.absorption.z, p, sun, slant, facing, material,
+                          shine);
+    if (some(material.known))
+        return change_of(surface, light, material, shine, facing, red, green, blue);
+    return scaled_by(vec3(share_of_arrived(red, facing.cosine), share_of_arrived(green, facing.cosine),
+                          share_of_arrived(blue, facing.cosine)));
 }
 
 PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light, IN(Material) material,
                       sampler2D gaussians, sampler2D table, vec3 own)
 {
-    return lit_by_light(medium, lamp_colours(medium), settings, surface, light, material, gaussians, table, own);
+    SurfaceSettings around = settings;
+    around.material = 2;
+    return becomes(change_by_light(medium, lamp_colours(medium), around, surface, light, material, shine_of(surface, material),
+                                   gaussians, table), own);
 }
 
 // Irradiance by an environment of `order` degrees of spherical harmonics (environment.glsl), of which those above 2 hardly count.
@@ -303,7 +290,7 @@ PURE float sent_from_above(float down, IN(Sent) sent)
 PURE vec3 sent_of_light(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings,
                         IN(Surface) surface, IN(Light) light, IN(Transfer) transfer, sampler2D gaussians, sampler2D table)
 {
-    bool sun = settings.lamps_alone == 0 && light.type == light_directional;
+    bool sun = may_have(settings, without_suns) && light.type == light_directional;
     if (!sun && settings.method == method_calibrated)
         return sent_of_one_lamp(medium, colours, camera, settings, surface, light, transfer, gaussians);
     if (sun && settings.method != method_calibrated)

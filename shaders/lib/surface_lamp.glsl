@@ -64,11 +64,32 @@ struct SurfaceSettings {
     int world_normals;
     int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
     int shadowed;  // as AirlightSettings has it
-    int lamps_alone;  // 1: no light is a sun
+    int without;   // of what scenes may have, what this one is known not to have
     int transfer;  // degrees that frames bring of the surfaces' transfer; 0: none
     int world_transfer;
     float ground;  // albedo of what lies below, for suns and sky
 };
+
+// Bits of SurfaceSettings::without.
+const int without_suns = 1;
+const int without_spots = 2;
+const int without_ungrouped = 4;  // lights with a part in what no light's own layer has
+const int without_green = 8;      // a medium that green sees otherwise than red
+const int without_blue = 16;      // and blue otherwise than green
+
+PURE bool may_have(IN(SurfaceSettings) settings, int without)
+{
+    return (settings.without & without) == 0;
+}
+
+// Light i, of a kind that compilers know where there is but one.
+PURE Light surface_light(IN(SurfaceSettings) settings, sampler2D lights, int i)
+{
+    Light light = light_at(lights, i);
+    if (!may_have(settings, without_suns))
+        light.type = may_have(settings, without_spots) && light.type == light_spot ? light_spot : light_point;
+    return light;
+}
 
 PURE vec3 chosen(Bool which, vec3 a, vec3 b)
 {
@@ -239,6 +260,8 @@ PURE Material material_of(int parts, vec3 albedo, vec3 specular, float roughness
 struct Shine {
     vec3 mirrored;  // the lobe's axis
     vec3 gloss;
+    float peak;     // of the lobe
+    float cosine;   // mean, of light in the lobe to its axis
 };
 
 PURE Shine shine_of(IN(Surface) surface, IN(Material) material)
@@ -246,8 +269,10 @@ PURE Shine shine_of(IN(Surface) surface, IN(Material) material)
     vec3 view = surface.point / max(length(surface.point), R(1e-20));
     float grazing = clamp(R(1.0) + dot(view, surface.normal), R(0.0), R(1.0));
     float twice = grazing * grazing;
+    float n = material.exponent;
     return Shine(view - R(2.0) * dot(view, surface.normal) * surface.normal,
-                 material.specular * choose(material.tint, R(0.04) + R(0.96) * twice * twice * grazing, R(1.0)));
+                 material.specular * choose(material.tint, R(0.04) + R(0.96) * twice * twice * grazing, R(1.0)),
+                 (n + R(1.0)) / (R(2.0) * pi), (n + R(1.0)) / (n + R(2.0)));
 }
 
 // Irradiance across a light's way in clear air, for intensity 1.
@@ -284,15 +309,17 @@ struct Facing {
     float lobe;      // what of the straight light is mirrored, for gloss 1
 };
 
-PURE Facing facing_of(IN(Surface) surface, IN(Light) light, IN(Material) material, IN(Shine) shine)
+// glossy: whether the surface may be.
+PURE Facing facing_of(IN(Surface) surface, IN(Light) light, IN(Material) material, IN(Shine) shine, bool glossy)
 {
-    float straight = within_spot(surface, light);
-    float mirror_cosine = dot(shine.mirrored, way_to(surface, light));
-    float cosine = cosine_to(surface, light);
-    float n = material.exponent;
-    float lobe = straight * (n + R(1.0)) / (R(2.0) * pi) * exp(n * log(max(mirror_cosine, R(1e-6))));
-    return Facing(strength_across(surface, light), straight, cosine, mirror_cosine,
-                  choose(cosine > R(0.0) && mirror_cosine > R(0.0), lobe, R(0.0)));
+    Facing facing = Facing(strength_across(surface, light), within_spot(surface, light), cosine_to(surface, light), R(0.0), R(0.0));
+    if (glossy) {
+        float m = dot(shine.mirrored, way_to(surface, light));
+        float lobe = facing.straight * shine.peak * exp(material.exponent * log(max(m, R(1e-6))));
+        facing.mirror_cosine = m;
+        facing.lobe = choose(facing.cosine > R(0.0) && m > R(0.0), lobe, R(0.0));
+    }
+    return facing;
 }
 
 // Of one colour: shares of what came straight, diffuse and mirrored, and what comes from aside, onto the surface and into its lobe.
@@ -309,51 +336,71 @@ PURE float fallen_off(float mean_cosine, float cosine)
     return exp(R(2.0) * mean_cosine * min(cosine, R(0.0)));
 }
 
-PURE Arrived arrived_of_lamp(IN(LampMedium) colour, float g, float p, IN(Facing) facing, float exponent)
+PURE Arrived arrived_of_lamp(IN(LampMedium) colour, float g, float p, IN(Facing) facing, IN(Shine) shine, bool glossy)
 {
     float x = min(colour.reduced * p, orders_depth_limit);
     float depth = min(colour.extinction * colour.reduced * p, orders_depth_limit);
     Received r = received_in(colour, g, x, facing.cosine);
     Rescattered again = rescattered_in(colour, x, depth);
-    float width = again.cosine * (exponent + R(1.0)) / (exponent + R(2.0));
-    return Arrived(r.along, parted(depth).x, fallen_off(again.cosine, facing.cosine) * r.aside,
-                   again.fluence * henyey_greenstein(width, facing.mirror_cosine));
+    Arrived arrived = Arrived(r.along, R(0.0), fallen_off(again.cosine, facing.cosine) * r.aside, R(0.0));
+    if (glossy) {
+        arrived.kept = parted(depth).x;
+        arrived.mirrored_aside = again.fluence * henyey_greenstein(again.cosine * shine.cosine, facing.mirror_cosine);
+    }
+    return arrived;
 }
 
-// What one colour of a lamp's part of the picture becomes: `own`, and what the medium brings to where it is not. Diffuse light that
-// came straight keeps to its way and the rest comes from aside, so that shadows and sides turned away get theirs. A highlight keeps
-// e^-tau; what has been scattered makes one as wide as it comes: the mean cosines of the lobe and of the light multiply. Published
-// methods dim all that came straight by e^-tau.
-PURE float reflected(IN(Arrived) arrived, IN(Facing) facing, float intensity, float albedo, float gloss, float own)
+// What becomes of a light's part of the picture, whatever that is.
+struct Change {
+    vec3 along;      // shares of diffuse light,
+    vec3 kept;       // and of the highlight,
+    vec3 highlight;  // which is this, where it is that much
+    vec3 brought;    // by the medium to where the part is not
+};
+
+PURE Change scaled_by(vec3 share)
 {
-    float clear = min(facing.strength * intensity, radiance_limit);
-    float highlight = min(gloss * facing.lobe * clear, max(own, R(0.0)));
-    float brought = albedo / pi * arrived.aside + gloss * arrived.mirrored_aside;
-    return min((own - highlight) * arrived.along + highlight * arrived.kept +
-                   min(clear * facing.straight, radiance_limit) * brought, radiance_limit);
+    return Change(share, vec3(R(0.0)), vec3(R(0.0)), vec3(R(0.0)));
 }
 
-PURE vec3 lit_by_one_lamp(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                          IN(Light) light, IN(Material) material, sampler2D gaussians, vec3 own)
+// Diffuse light that came straight keeps to its way and the rest comes from aside, so that shadows and sides turned away get theirs. A
+// highlight keeps e^-tau; what has been scattered makes one as wide as it comes: the mean cosines of the lobe and of the light multiply.
+// Published methods dim all that came straight by e^-tau. Without a normal a surface has no sides and no mirror.
+PURE Change change_of(IN(Surface) surface, IN(Light) light, IN(Material) material, IN(Shine) shine, IN(Facing) facing, IN(Arrived) red,
+                      IN(Arrived) green, IN(Arrived) blue)
+{
+    Bool sided = has_normal(surface);
+    vec3 along = vec3(red.along, green.along, blue.along);
+    vec3 aside = vec3(red.aside, green.aside, blue.aside);
+    vec3 mirrored = vec3(red.mirrored_aside, green.mirrored_aside, blue.mirrored_aside);
+    vec3 clear = min(facing.strength * light.intensity, vec3(radiance_limit));
+    vec3 brought = min(clear * facing.straight, vec3(radiance_limit)) * (material.albedo * aside / pi + shine.gloss * mirrored);
+    return Change(chosen(sided, along, along + aside), vec3(red.kept, green.kept, blue.kept),
+                  chosen(sided, shine.gloss * (facing.lobe * clear), vec3(R(0.0))), chosen(sided, brought, vec3(R(0.0))));
+}
+
+// own: the light's part.
+PURE vec3 becomes(IN(Change) change, vec3 own)
+{
+    vec3 highlight = min(change.highlight, max(own, vec3(R(0.0))));
+    return min((own - highlight) * change.along + highlight * change.kept + change.brought, vec3(radiance_limit));
+}
+
+PURE Change change_by_lamp(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
+                           IN(Light) light, IN(Material) material, IN(Shine) shine, sampler2D gaussians)
 {
     if (!some(material.known))
-        return own * share_of_lamp(medium, colours, settings, surface, light, gaussians);
+        return scaled_by(share_of_lamp(medium, colours, settings, surface, light, gaussians));
+    bool glossy = settings.material > 1;
     float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
-    Shine shine = shine_of(surface, material);
-    Facing facing = facing_of(surface, light, material, shine);
+    Facing facing = facing_of(surface, light, material, shine, glossy);
     float g = colours.asymmetry;
-    float n = material.exponent;
-    Arrived red = arrived_of_lamp(colours.red, g, p, facing, n);
+    Arrived red = arrived_of_lamp(colours.red, g, p, facing, shine, glossy);
     Arrived green = red;
     if (!green_as_red(medium))
-        green = arrived_of_lamp(colours.green, g, p, facing, n);
+        green = arrived_of_lamp(colours.green, g, p, facing, shine, glossy);
     Arrived blue = green;
     if (!blue_as_green(medium))
-        blue = arrived_of_lamp(colours.blue, g, p, facing, n);
-    vec3 sum = vec3(reflected(red, facing, light.intensity.x, material.albedo.x, shine.gloss.x, own.x),
-                    reflected(green, facing, light.intensity.y, material.albedo.y, shine.gloss.y, own.y),
-                    reflected(blue, facing, light.intensity.z, material.albedo.z, shine.gloss.z, own.z));
-    // Without a normal a surface has no sides and no mirror.
-    vec3 share = vec3(red.along + red.aside, green.along + green.aside, blue.along + blue.aside);
-    return chosen(has_normal(surface), sum, own * share);
+        blue = arrived_of_lamp(colours.blue, g, p, facing, shine, glossy);
+    return change_of(surface, light, material, shine, facing, red, green, blue);
 }

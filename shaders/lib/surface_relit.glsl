@@ -1,8 +1,11 @@
-// Pixels whose lights' parts are known, or shared out. Needs what surface.glsl says of each light: share_of_light(), lit_by_light(),
-// lit_by_map(), sky_irradiance(), sky_change(). Of lamps alone pixels of a row may go side by side.
+// Pixels whose lights' parts are known, or shared out. Needs what surface.glsl says of each light: change_by_light(), lit_by_map(),
+// sent_of_light(), and of the sky: sky_irradiance(), sky_change(), sent_of_sky(). Of lamps alone pixels of a row may go side by side.
 
 #define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D gaussians, sampler2D environment, sampler2D table
 #define SURFACE_PASSED lights, ungrouped, gaussians, environment, table
+
+// Loops over lights are asked at their end: software OpenGL goes through a loop's body once more, for no pixel, after one that is asked at
+// its begin.
 
 // What `ungrouped` has of each light.
 const int part_none = 0;       // it has no part in surfaces
@@ -18,32 +21,41 @@ PURE vec3 ungrouped_irradiance(IN(Camera) camera, IN(SurfaceSettings) settings, 
 
 // What no lamp's own layer has becomes this: each lamp's part by what it gives in clear air, and the environment's.
 PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES,
-                        SHADOW_MAP_IMAGES, IN(Surface) surface, IN(Material) material, vec3 rest)
+                        SHADOW_MAP_IMAGES, IN(Surface) surface, IN(Material) material, IN(Shine) shine, vec3 rest)
 {
+    int count = may_have(settings, without_ungrouped) ? settings.light_count : 0;
+    // Of a highlight's light the medium leaves less, so that what a light's part is must be known first.
+    bool glossy = settings.material > 1;
     vec3 all = vec3(R(0.0));
     vec3 changed = vec3(R(0.0));
-    for (int l = 0; l < settings.light_count; ++l) {
-        if (int(data_texel(ungrouped, l).x) != part_ungrouped)
-            continue;
-        Light light = light_at(lights, l);
-        vec3 irradiance = ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l);
-        all = min(all + irradiance, vec3(radiance_limit));
-        // Without a material a light's part changes by a factor: one loop does.
-        if (!some(material.known))
-            changed += irradiance * (share_of_light(medium, colours, settings, surface, light, gaussians, table) - vec3(R(1.0)));
-    }
-    vec3 sky = sky_irradiance(camera, settings, environment, surface);
-    vec3 scale = vec3(R(1.0)) / max(all + sky, vec3(R(1e-30)));
-    vec3 change = rest * (changed * scale) +
-                  sky_change(medium, camera, settings, gaussians, environment, table, surface, material, rest * (sky * scale));
-    if (some(material.known))
-        for (int l = 0; l < settings.light_count; ++l) {
+    vec3 brought = vec3(R(0.0));
+    int l = 0;
+    if (count > 0)
+        do {
             if (int(data_texel(ungrouped, l).x) != part_ungrouped)
                 continue;
-            Light light = light_at(lights, l);
+            Light light = surface_light(settings, lights, l);
+            vec3 irradiance = ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l);
+            all = min(all + irradiance, vec3(radiance_limit));
+            if (!glossy) {
+                Change change = change_by_light(medium, colours, settings, surface, light, material, shine, gaussians, table);
+                changed += irradiance * (change.along - vec3(R(1.0)));
+                brought += change.brought;
+            }
+        } while (++l < count);
+    vec3 sky = sky_irradiance(camera, settings, environment, surface);
+    vec3 scale = vec3(R(1.0)) / max(all + sky, vec3(R(1e-30)));
+    vec3 change = rest * (changed * scale) + brought +
+                  sky_change(medium, camera, settings, gaussians, environment, table, surface, material, rest * (sky * scale));
+    l = 0;
+    if (glossy && count > 0)
+        do {
+            if (int(data_texel(ungrouped, l).x) != part_ungrouped)
+                continue;
+            Light light = surface_light(settings, lights, l);
             vec3 own = rest * (ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l) * scale);
-            change += lit_by_light(medium, colours, settings, surface, light, material, gaussians, table, own) - own;
-        }
+            change += becomes(change_by_light(medium, colours, settings, surface, light, material, shine, gaussians, table), own) - own;
+        } while (++l < count);
     return max(rest + change, min(rest, vec3(R(0.0))));
 }
 
@@ -64,25 +76,25 @@ struct Divided {
 
 // group: the lamp's own layer of the picture.
 PURE Divided divided_by_group(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                              IN(Light) light, IN(Material) material, sampler2D gaussians, sampler2D table, IN(Divided) pixel,
-                              vec3 group)
+                              IN(Light) light, IN(Material) material, IN(Shine) shine, sampler2D gaussians, sampler2D table,
+                              IN(Divided) pixel, vec3 group)
 {
     vec3 own = finite_or_zero(group);
-    vec3 becomes = own;
+    vec3 lit = own;
     if (some(surface.seen))
-        becomes = chosen(surface.seen,
-                         lit_by_light(medium, colours, settings, surface, light, as_relit(settings, material), gaussians, table,
-                                      own), own);
-    return Divided(pixel.rest - own, min(pixel.lit + becomes, vec3(radiance_limit)));
+        lit = chosen(surface.seen,
+                     becomes(change_by_light(medium, colours, settings, surface, light, material, shine, gaussians, table), own), own);
+    return Divided(pixel.rest - own, min(pixel.lit + lit, vec3(radiance_limit)));
 }
 
 // The pixel in the end; source: as it was.
 PURE vec3 relit(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings, SURFACE_IMAGES,
-                SHADOW_MAP_IMAGES, IN(Surface) surface, IN(Material) material, vec3 source, IN(Divided) pixel, float limit)
+                SHADOW_MAP_IMAGES, IN(Surface) surface, IN(Material) material, IN(Shine) shine, vec3 source, IN(Divided) pixel,
+                float limit)
 {
     if (!some(surface.seen))
         return source;
-    vec3 sum = rest_received(medium, colours, camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, as_relit(settings, material),
+    vec3 sum = rest_received(medium, colours, camera, settings, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material, shine,
                              finite_or_zero(pixel.rest)) + pixel.lit;
     return chosen(surface.seen, compose_radiance(source, vec3(R(0.0)), sum, limit), source);
 }
@@ -97,7 +109,8 @@ PURE vec3 brought_by_transfer(IN(Medium) medium, IN(LampColours) colours, IN(Cam
     vec3 sum = sent_of_sky(medium, camera, settings, gaussians, environment, in_axes, table, surface, transfer);
     for (int l = 0; l < settings.light_count; ++l)
         if (int(data_texel(ungrouped, l).x) != part_none)
-            sum += sent_of_light(medium, colours, camera, settings, surface, light_at(lights, l), transfer, gaussians, table);
+            sum += sent_of_light(medium, colours, camera, settings, surface, surface_light(settings, lights, l), transfer, gaussians,
+                                 table);
     return chosen(there, min(reflectance(albedo) * sum, vec3(radiance_limit)), vec3(R(0.0)));
 }
 

@@ -19,12 +19,16 @@
 #include "lamp_field.glsl"
 #include "environment.glsl"
 #include "surface.glsl"
+#include "surface_planned.glsl"
+#include "surface_groups.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
 uniform float brume_output_limit;
 uniform SurfaceSettings settings;
 uniform int first;  // nothing was divided yet
+uniform ivec4 of_lights;
+uniform int groups;
 uniform sampler2D color;
 uniform sampler2D rest;
 uniform sampler2D lit;
@@ -38,36 +42,38 @@ uniform sampler2D table;
 uniform sampler2D albedo;
 uniform sampler2D specular;
 uniform sampler2D roughness;
+uniform sampler2D group_0;
+uniform sampler2D group_1;
+uniform sampler2D group_2;
+uniform sampler2D group_3;
 uniform sampler2D light_shadows;
 uniform sampler2D shadow_maps;
 writeonly uniform image2D result;
 writeonly uniform image2D surface_out;
-
-// As the plan has it: drivers that run both sides of branches would pay for what no pixel needs.
-SurfaceSettings planned()
-{
-    SurfaceSettings s = settings;
-    s.method = METHOD;
-    s.lamps_alone = LAMPS_ALONE;
-    if (MATERIAL == 0)
-        s.material = 0;
-    if (ENVIRONMENT == 0)
-        s.environment_order = 0;
-    if (SHADOWED == 0)
-        s.shadowed = 0;
-    return s;
-}
 
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    SurfaceSettings around = planned();
+    SurfaceSettings around = planned(settings);
+    Medium medium = planned(brume_medium);
+    LampColours colours = lamp_colours(medium);
     vec4 source = texelFetch(color, p, 0);
     Surface surface = surface_of(brume_camera, around, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
+    Material material = as_relit(around, material_at(around.material, albedo, specular, roughness, p));
+    Shine shine = shine_of(surface, material);
     Divided divided = first != 0 ? Divided(source.rgb, vec3(0.0)) : Divided(texelFetch(rest, p, 0).rgb, texelFetch(lit, p, 0).rgb);
-    vec3 shown = relit(brume_medium, lamp_colours(brume_medium), brume_camera, around, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material_at(around.material, albedo, specular, roughness, p), source.rgb, divided, brume_output_limit);
+#if GROUPS
+    vec3 of_groups[4] = vec3[](texelFetch(group_0, p, 0).rgb, texelFetch(group_1, p, 0).rgb, texelFetch(group_2, p, 0).rgb,
+                               texelFetch(group_3, p, 0).rgb);
+    divided = divided_by_groups(medium, colours, around, surface, material, shine, lights, gaussians, table, groups, of_lights,
+                                of_groups, divided);
+#endif
+    vec3 shown = relit(medium, colours, brume_camera, around, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material, shine, source.rgb,
+                       divided, brume_output_limit);
     imageStore(result, p, vec4(shown, source.a));
+#if SURFACE_OUT
     imageStore(surface_out, p, vec4(shown, 1.0));
+#endif
 }

@@ -19,6 +19,7 @@
 #include "lamp_field.glsl"
 #include "environment.glsl"
 #include "surface.glsl"
+#include "surface_planned.glsl"
 
 uniform Medium brume_medium;
 uniform Camera brume_camera;
@@ -39,18 +40,6 @@ uniform sampler2D transfer_3;
 uniform sampler2D transfer_4;
 uniform sampler2D transfer_5;
 writeonly uniform image2D brought;
-
-// As the plan has it: drivers that run both sides of branches would pay for what no pixel needs.
-SurfaceSettings planned()
-{
-    SurfaceSettings s = settings;
-    s.method = METHOD;
-    s.lamps_alone = LAMPS_ALONE;
-    s.transfer = TRANSFER;
-    if (ENVIRONMENT == 0)
-        s.environment_order = 0;
-    return s;
-}
 
 Transfer transfer_at(ivec2 p)
 {
@@ -75,9 +64,10 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    SurfaceSettings around = planned();
+    SurfaceSettings around = planned(settings);
+    Medium medium = planned(brume_medium);
     Surface surface = surface_of(brume_camera, around, vec2(p) + 0.5, texelFetch(depth, p, 0).r, texelFetch(normals, p, 0).rgb);
-    vec3 light = brought_by_transfer(brume_medium, lamp_colours(brume_medium), brume_camera, around, SURFACE_PASSED, in_axes,
+    vec3 light = brought_by_transfer(medium, lamp_colours(medium), brume_camera, around, SURFACE_PASSED, in_axes,
                                      surface, texelFetch(albedo, p, 0).rgb, transfer_at(p));
     imageStore(brought, p, vec4(light, 1.0));
 }

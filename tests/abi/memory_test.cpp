@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "client.h"
 
@@ -115,11 +116,18 @@ std::string lit_scene(int lights, int gaussians, const char *medium)
 
 class Frames : public EachBackend {
 protected:
-    void expect_no_allocations(const std::string &text)
+    // layers: in camera axes, of the first light where they are of lights.
+    void expect_no_allocations(const std::string &text, const std::vector<const char *> &layers = {})
     {
         Scene scene = make_scene(context, text.c_str());
-        Plan plan = make_plan(context, scene, ray_format(32, 32));
         Picture color(32, 32), depth(32, 32, {.channels = 1}), output(32, 32);
+        const brume_image brought = color.image(), of_one_channel = depth.image();
+        std::vector<brume_layer> inputs;
+        for (const char *name : layers) {
+            inputs.push_back(layer(name, std::string_view(name) == "roughness" ? &of_one_channel : &brought));
+            inputs.back().kind = BRUME_LAYER_CAMERA;
+        }
+        Plan plan = make_plan(context, scene, ray_format(32, 32, {}, inputs));
         paint(color);
         paint_depth(depth);
         brume_image color_image = color.image(), depth_image = depth.image(), output_image = output.image();
@@ -127,6 +135,8 @@ protected:
         frame.color = &color_image;
         frame.depth = &depth_image;
         frame.output = &output_image;
+        frame.inputs = inputs.data();
+        frame.input_count = uint32_t(inputs.size());
         for (int i = 0; i < 12; ++i)
             ASSERT_EQ(brume_plan_execute(plan.get(), &frame), BRUME_OK);
         const size_t before = allocations;
@@ -165,6 +175,15 @@ TEST_P(Frames, WithShadowsAllocateNothingOnceWarm)
         text.replace(at, 10, "\"scale\": 0.1");
     text.back() = ',';
     expect_no_allocations(text + R"("effects": {"airlight": {"tier": "maps", "orders": "single"}}})");
+}
+
+TEST_P(Frames, WithSurfacesAllocateNothingOnceWarm)
+{
+    std::string text = lit_scene(6, 2, R"("scattering": 0.03)");
+    text.back() = ',';
+    text +=
+        R"("environment": {"sh": [[1, 1, 1], [0, 0.1, 0], [0, 0, 0.2], [0, 0, 0]]}, "effects": {"surface": {"method": "psf"}}})";
+    expect_no_allocations(text, {"normal", "albedo", "specular", "roughness", "transfer_0", "light_group"});
 }
 
 // Of 4,096 lights, and of 10,000 Gaussians, that stand still. Meant to be below .02 ms; ten times as much is left to busy

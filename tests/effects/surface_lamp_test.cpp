@@ -102,7 +102,7 @@ TEST(SurfaceLamp, PixelsSideBySideAreWhatEachIsAlone)
 {
     const Mixed frame;
     for (const Json &medium : media)
-        for (const char *density : {"constant", "layer and cloud"})
+        for (const char *density : {"constant", "layer and cloud", "shadows"})
             for (int parts = 0; parts < 4; ++parts)
                 for (size_t groups : {0, 3}) {
                     Json scene = lit_scene(medium, three_lamps());
@@ -110,6 +110,9 @@ TEST(SurfaceLamp, PixelsSideBySideAreWhatEachIsAlone)
                         scene["medium"]["density"] = Json::array(
                             {{{"type", "exponential"}, {"value", 0.7}, {"direction", {0.1, 1, 0}}, {"falloff", 0.2}},
                              gaussian({0, 0, -6}, 2, 0.8)});
+                    if (*density == 's')
+                        for (Json &lamp : scene["lights"])
+                            lamp["shadow"] = "screen";
                     scene["effects"] = {{"surface", Json::object()}};
                     const std::vector<Picture> given(frame.groups.begin(), frame.groups.begin() + long(groups));
                     const Picture together = relit(cpu(), scene, frame.color, frame.depth, frame.layers(parts), given);
@@ -119,4 +122,89 @@ TEST(SurfaceLamp, PixelsSideBySideAreWhatEachIsAlone)
                     EXPECT_LT(worst.error, 2e-5) << medium << ", " << density << ", " << parts << ": " << worst.describe();
                     EXPECT_GT(compare(together, frame.color, 0.01).error, 0.01);
                 }
+}
+
+namespace {
+
+class SurfaceLampOn : public testing::TestWithParam<const char *> {
+protected:
+    brume_context context() { return backend(GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SurfaceLampOn, testing::ValuesIn(fog::backend_names),
+                         [](auto &info) { return std::string(info.param); });
+
+Json surfaces_in(const Json &medium, const Json &lights)
+{
+    Json scene = lit_scene(medium, lights);
+    scene["effects"] = {{"surface", Json::object()}};
+    return scene;
+}
+
+// As many as a pass takes at once, and more.
+Json many_lamps()
+{
+    Json many = three_lamps();
+    for (const Json &lamp : three_lamps()) {
+        many.push_back(lamp);
+        many.back()["position"][0] = double(lamp["position"][0]) - 1;
+    }
+    return many;
+}
+
+}  // namespace
+
+// What each lamp's layer becomes is one thing, whether other layers come with it or not.
+TEST_P(SurfaceLampOn, LayersOfManyLampsAreEachLampsOwn)
+{
+    const Mixed frame;
+    const Json lights = many_lamps();
+    Picture apart(Mixed::width, Mixed::height, 3, 0), all = apart;
+    std::vector<Picture> groups;
+    for (size_t l = 0; l < lights.size(); ++l) {
+        Picture group = frame.groups[l % 3];
+        for (float &v : group.data)
+            v *= float(l + 1);
+        const Json alone = surfaces_in(media[3], Json::array({lights[l]}));
+        const Picture one = relit(cpu(), alone, group, frame.depth, frame.layers(3), {group});
+        for (size_t i = 0; i < all.data.size(); ++i) {
+            all.data[i] += group.data[i];
+            apart.data[i] += one.data[i];
+        }
+        groups.push_back(std::move(group));
+    }
+    const Picture both = relit(context(), surfaces_in(media[3], lights), all, frame.depth, frame.layers(3), groups);
+    const Worst worst = compare(both, apart, 0.05);
+    EXPECT_LT(worst.error, 1e-3) << worst.describe();
+}
+
+// Programs are made for what the planned scene has.
+TEST_P(SurfaceLampOn, ScenesThatPlansAreGivenLaterMayHaveMore)
+{
+    const Mixed frame;
+    const Json lamp = Json::array({point_light({-1.5, 2, -6}, 40, 0.1)}), spot = Json::array({three_lamps()[2]}),
+               sun = Json::array({{{"type", "directional"}, {"direction", {-0.2, -1, -0.1}}, {"intensity", 3}}});
+    const Json grey{{"scattering", {0.05, 0.05, 0.051}}, {"absorption", {0.01, 0.01, 0.01}}, {"g", 0.6}},
+        colours{{"scattering", {0.02, 0.07, 0.05}}, {"absorption", {0.01, 0.01, 0.01}}, {"g", -0.6}};
+    Options options;
+    options.inputs = frame.layers(3);
+    options.inputs_of_lights["light_group"] = {frame.groups[0]};
+    Options without_groups = options;
+    without_groups.inputs_of_lights["light_group"].clear();
+    const Plan plan(context(), surfaces_in(grey, lamp).dump(), Mixed::width, Mixed::height, options);
+    for (const auto &[medium, lights] :
+         {std::pair(grey, lamp), std::pair(grey, spot), std::pair(grey, sun), std::pair(colours, lamp)})
+        for (const Options &brought : {options, without_groups}) {
+            const std::string text = surfaces_in(medium, lights).dump();
+            brume_scene scene = nullptr;
+            Context::check(brume_scene_create_from_text(context(), text.data(), text.size(), "later.json", &scene),
+                           context());
+            Context::check(brume_plan_update(plan, scene, nullptr), context());
+            brume_scene_destroy(scene);
+            const Worst worst = compare(
+                plan.execute(frame.color, frame.depth, brought).output,
+                Plan(cpu(), text, Mixed::width, Mixed::height, options).execute(frame.color, frame.depth, brought).output,
+                0.05);
+            EXPECT_LT(worst.error, 1e-3) << medium << lights << ": " << worst.describe();
+        }
 }
