@@ -1,4 +1,6 @@
 // Tier `maps`: attenuation maps and a grid, against tier `nodes`, which integrates the same media along each ray.
+#include <ctime>
+
 #include <gtest/gtest.h>
 
 #include "lit_scene.h"
@@ -171,6 +173,21 @@ TEST(AirlightMaps, AgreeWithNodesAndBoundTheirError)
     EXPECT_LE(excess[excess.size() / 2], 10);
 }
 
+// Where the grid has sums of lights, which an error layer does without.
+TEST(AirlightMaps, SumsAgreeWithEachLight)
+{
+    const Frame frame = lit_frame(320, 200);
+    const Json scene = with(scene_of(cloud(300, 21), lamps(3)), "tier", "maps");
+    const Picture sums = airlight_of(cpu(), scene, frame),
+                  each = run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}})
+                             .airlight;
+    const Errors e = errors(sums, each);
+    report("sums", e);
+    EXPECT_GT(e.worst, 0) << "the grid has no sums";
+    EXPECT_LT(e.median, 1e-3);
+    EXPECT_LT(e.p95, 3e-3);
+}
+
 #ifdef BRUME_GL
 TEST(AirlightMaps, GpuAgainstCpu)
 {
@@ -185,6 +202,32 @@ TEST(AirlightMaps, GpuAgainstCpu)
     }
 }
 #endif
+
+// What several lights send is summed before it is looked up, so that another costs little.
+TEST(AirlightMaps, EightLampsCostLittleMoreThanOne)
+{
+    const Frame frame = lit_frame(640, 400);
+    const Json density = cloud(1000, 15), all = lamps(8);
+    Options options{{}, {"airlight"}};
+    Context one(BRUME_BACKEND_CPU, 1);
+    const Plan few(one, with(scene_of(density, Json::array({all[0]})), "tier", "maps").dump(), 640, 400, options),
+        many(one, with(scene_of(density, all), "tier", "maps").dump(), 640, 400, options);
+    auto least = [&](const Plan &plan) {
+        std::clock_t least = 0;
+        for (int i = 0; i < 2; ++i) {
+            const brume_camera moved = camera(pose({0.01 * i, 0, 0}), 50);
+            options.camera = &moved;
+            const std::clock_t start = std::clock();
+            plan.execute(frame.color, frame.depth, options);
+            const std::clock_t taken = std::clock() - start;
+            least = i == 0 ? taken : std::min(least, taken);
+        }
+        return double(least);
+    };
+    const double alone = least(few), together = least(many);
+    printf("eight lamps: %.2f times one\n", together / alone);
+    EXPECT_LT(together, 3.5 * alone);
+}
 
 // Light adds up, over rounds of four and beyond the maps that are kept.
 TEST(AirlightMaps, ManyLightsAreTheSumOfEach)
