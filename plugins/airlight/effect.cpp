@@ -148,14 +148,14 @@ double Planner::gather_operations() const
         return 100 + 150 * lights + met.of_sight * (100 + 150 * lights);
     const int finer = p.max_error > 0.05 ? 0 : p.max_error >= 0.005 ? 1 : 2;
     constexpr double of_terms[] = {1, 1.2, 1.5}, of_gaussians[] = {1, 2.3, 5};
-    // Mesa's software GL vectorises cells well and panels badly.
-    const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 700,
-                 of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 1900;
+    // The CPU has a panel's nodes side by side; Mesa's software GL vectorises cells well and panels badly.
+    const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 500,
+                 of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 2000;
     const double of_orders = p.orders == Orders::all && !takes_grid(*state_, scene_) ? 3 : 1;
     double operations = 100 + of_orders * of_terms[finer] * lights * (of_light + of_term * scene_.medium->term_count);
     if (scene_.gaussian_count > 0)
         operations +=
-            of_gaussians[finer] * (2000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light);
+            of_gaussians[finer] * (5000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light);
     return operations;
 }
 
@@ -169,7 +169,7 @@ bool Planner::takes_maps(const MapsOffer &offer, double other_operations) const
     if (tier != Tier::automatic)
         return tier == Tier::maps;
     // Of Gaussians that come with the frames nobody knows how many; nodes would take minutes for some hundreds.
-    return offer.suits && (!scene_.gaussians || 2 * offer.operations < other_operations);
+    return offer.suits && (!scene_.gaussians || 2 * offer.operations() < other_operations);
 }
 
 brume_status Planner::plan_gather()
@@ -209,7 +209,7 @@ brume_status Planner::plan_gather()
     state.maps.used = takes_maps(maps, operations);
     state.scattered.used = takes_grid(state, scene_);
     if (state.maps.used)
-        if (brume_status s = plan_maps(services_, host_, scene_, maps.sizes, state))
+        if (brume_status s = plan_maps(services_, host_, scene_, maps, state))
             return s;
     state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
     if (state.has_blobs)
@@ -217,7 +217,7 @@ brume_status Planner::plan_gather()
                 entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved", 0, 0))
             return s;
     if (brume_status s = entry(
-            true, "gather",
+            true, state.maps.used ? maps_gather : "gather",
             std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
                 (state.environment_scatters ? " and the environment" : "") +
                 (state.parameters.orders == Orders::all
@@ -226,7 +226,7 @@ brume_status Planner::plan_gather()
                      : " scattered once") +
                 (state.shadowed ? ", in the shadows of solid things" : "") +
                 (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
-            pixels * (4 + 16), state.maps.used ? maps.operations : operations))
+            pixels * (4 + 16), state.maps.used ? maps.of_pixels : operations))
         return s;
     if (!state.scattered.used)
         return BRUME_OK;

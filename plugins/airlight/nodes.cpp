@@ -44,11 +44,6 @@ struct Pass {
                                   light, point);
 }
 
-[[gnu::noinline]] scalar::vec3 terms_of(const Pass &pass, const scalar::Sight &sight)
-{
-    return scalar::terms_range(pass.medium, sight);
-}
-
 [[gnu::noinline]] scalar::ShadowRay shadow_of(const Pass &pass, int light, const scalar::Sight &sight, float reach)
 {
     return scalar::shadow_ray(pass.camera, pass.light_shadows, pass.shadow_maps, pass.settings.shadowed, light,

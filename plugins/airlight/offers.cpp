@@ -1,5 +1,6 @@
-// Settings of tier `nodes` by what they cost, each with the error that 95 of 100 random scenes keep below against tier
-// `reference` (quality_bench). The published tiers know too little of media to be offered.
+// Settings of tier `nodes`, or `maps` where the plan takes those unasked, by what they cost, each with the error that 95 of
+// 100 random scenes keep below against tier `reference` (quality_bench). The published tiers know too little of media to be
+// offered.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -28,7 +29,8 @@ uint32_t offer(const brume_services *, brume_host, const brume_plugin_request *r
     if (index >= std::size(settings) || (settings[index].tier == Tier::reference && request->backend != BRUME_BACKEND_CPU))
         return 0;
     const Setting &s = settings[index];
-    choose(parameters, s.tier, s.max_error, s.reduction);
+    const bool many = s.tier == Tier::nodes && request->scene->gaussian_count > 0;
+    choose(parameters, many ? Tier::automatic : s.tier, s.max_error, s.reduction);
     // What is interpolated is as far apart as the images are small.
     const double size = std::max(8, std::min(request->width, request->height));
     *error = s.error * (s.reduction > 1 ? std::sqrt(32 / size) : 1);

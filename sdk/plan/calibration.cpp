@@ -6,6 +6,8 @@
 #include <map>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "plan/context.h"
 #include "plan/plan.h"
 
@@ -31,6 +33,20 @@ constexpr const char *scenes[] = {
           {"type":"gaussian","center":[0,0,-10],"scale":0.3,"amplitude":2},{"type":"gaussian","center":[5,1,-15],"scale":0.2,"amplitude":2},
           {"type":"gaussian","center":[-6,0,-18],"scale":0.25,"amplitude":2},{"type":"gaussian","center":[2,-2,-8],"scale":0.5,"amplitude":2}]},
         "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}]})"};
+
+// So many Gaussians, and so large, that they are gathered from maps.
+std::string many_gaussians()
+{
+    std::string text =
+        R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+            "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}],
+            "medium":{"scattering":0.05,"density":[)";
+    for (int i = 0; i < 60; ++i)
+        text += fmt::format(R"({}{{"type":"gaussian","center":[{},{},{}],"scale":{},"amplitude":0.5}})", i ? "," : "",
+                            i * 7 % 13 - 6, i * 5 % 7 - 3, -4 - i * 3 % 17, i % 2 ? 0.5 : 0.3);
+    return text + "]}}";
+}
+
 // The second so much larger that what a pass takes at its start and what it takes an operation can be told apart.
 constexpr std::pair<int, int> sizes[] = {{96, 54}, {320, 180}};
 
@@ -84,8 +100,10 @@ void measure(const std::shared_ptr<Context> &context, const Scene &scene, TestFr
     for (int round = 0; round < rounds && (round == 0 || Clock::now() < end); ++round) {
         plan.execute(test.frame);
         const std::vector<double> ms = plan.measured_ms();
+        // What runs when something moved alone took no time in the others.
         for (size_t i = 0; i < ms.size(); ++i)
-            least[i] = std::min(least[i], ms[i]);
+            if (ms[i] > 0)
+                least[i] = std::min(least[i], ms[i]);
     }
     for (size_t i = 0; i < least.size(); ++i) {
         const PlanEntry &entry = plan.entries()[i];
@@ -102,7 +120,9 @@ std::vector<Scene> cases(const std::shared_ptr<Context> &context)
     brume_format format = BRUME_FORMAT_INIT;
     format.width = sizes[0].first;
     format.height = sizes[0].second;
-    for (const char *text : scenes) {
+    std::vector<std::string> texts(std::begin(scenes), std::end(scenes));
+    texts.push_back(many_gaussians());
+    for (const std::string &text : texts) {
         const Scene scene = parse_scene(text, "calibration", context->effects);
         const brume_host_t open(context, scene, format, Purpose::rehearsal);
         for (const PlannedEffect &planned : open.effects())

@@ -1,5 +1,5 @@
-// The method `maps`: a pixel's airlight from the grid. Needs lit.glsl, radiance.glsl, grid_lights.glsl, grid_fetch.glsl, and the
-// macros of airlight_mapped.glsl.
+// The method `maps`: a pixel's airlight from the grid. Needs airlight_step.glsl, grid_lights.glsl, grid_fetch.glsl, and the macros of
+// airlight_mapped.glsl.
 //
 // A step between two slices takes two fetches, however many Gaussians there are. Its mass is exact for them all; 1 / d^2 is
 // integrated in closed form, and steps that the lights' angle or depth changes much over are halved.
@@ -21,57 +21,7 @@ PURE vec4 grid_between(sampler2D image, IN(GridSettings) s, int stride, int slic
     return top * (R(1.0) - f.y) + bottom * f.y;
 }
 
-const int grid_halvings = 4;
-
-// Nodes at equal angles from a light at height h above the ray's point `foot`: which x between a and b halves the angle.
-PURE float halfway(float h, float a, float b)
-{
-    float da = sqrt(h * h + a * a);
-    float db = sqrt(h * h + b * b);
-    return (a * db + b * da) / (da + db);
-}
-
-// atan(q) for 0 <= q <= 1, to 1e-7 of itself.
-PURE float small_atan(float q)
-{
-    // Halved once more: the series is that of [0, .415].
-    float x = q / (R(1.0) + sqrt(R(1.0) + q * q));
-    float y = x * x;
-    return R(2.0) * x *
-           (R(1.0) + y * (-R(1.0 / 3.0) + y * (R(0.2) + y * (-R(1.0 / 7.0) + y * (R(1.0 / 9.0) + y * (-R(0.0881) + y * R(0.0573)))))));
-}
-
-// The angle in which [a, b] is seen from the light.
-PURE float angle_of(float h, float a, float b)
-{
-    float r = sqrt(h * h + a * a) * sqrt(h * h + b * b);
-    float y = h * (b - a);
-    float q = y / max(r + h * h + a * b, R(1e-30));
-    return R(4.0) * small_atan(q / (R(1.0) + sqrt(R(1.0) + q * q)));
-}
-
-PURE vec3 grid_transmittance(IN(Medium) medium, IN(GridSettings) s, float density)
-{
-    float p = clamp(density, R(0.0), density_limit);
-    if (s.grey == 1)
-        return vec3(exp(-min((medium.scattering.x + medium.absorption.x) * p, optical_depth_limit)));
-    return transmittance(medium, p);
-}
-
-PURE vec3 grid_mean_exponential(IN(GridSettings) s, vec3 tau)
-{
-    if (s.grey == 1)
-        return vec3(mean_exponential(tau.x));
-    return vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
-}
-
-// Beyond this no light shows.
-const float farthest_light = R(1e15);
-
-// Parallel light is as if it came from so far.
-const float parallel_height = R(1e9);
-
-// What the lights [first, last), four at most, add to a pixel; place: in cells. stride: 1, or 2 for half the grid each way, which
+// What the lights [first, last), four at most, whose depths the grid has, add to a pixel; place: in cells. stride: 1, or 2 for half the grid each way, which
 // tells how far off the whole is.
 PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, int stride, sampler2D slices, sampler2D grid_density,
                       sampler2D grid_lights, sampler2D lights, MAPPED_IMAGES, int first, int last, vec2 place, vec3 direction, float distance)
@@ -85,12 +35,8 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
     int count = min(last - first, grid_lights_at_once);
     for (int i = 0; i < count; ++i) {
         light[i] = light_at(lights, first + i);
-        aspect[i] = aspect_of(light[i], direction);
-        height[i] = min(max(aspect[i].height, light[i].radius), farthest_light);
-        if (light[i].type == light_directional) {
-            aspect[i].foot = R(0.0);
-            height[i] = parallel_height;
-        }
+        aspect[i] = aspect_to(light[i], direction);
+        height[i] = height_of(light[i], aspect[i]);
         MAPPED_BEGIN(i)
     }
     vec3 total = vec3(R(0.0));
@@ -119,60 +65,22 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
             vec3 seen = grid_transmittance(medium, s, before);
             vec3 whole = scattering * seen * grid_mean_exponential(s, extinction * mass);
             for (int i = 0; i < count; ++i) {
-                float a = clamp(from - aspect[i].foot, -farthest_light, farthest_light);
-                float b = clamp(to - aspect[i].foot, -farthest_light, farthest_light);
-                float h = height[i];
-                float d = light[i].type == light_directional ? R(1.0) : sqrt(h * h + a * a);
-                float e = light[i].type == light_directional ? R(1.0) : sqrt(h * h + b * b);
                 float density_a = of_lights[i];
                 float density_b = mix(density_a, next_lights[i], share);
-                float angle = angle_of(h, a, b);
-                float turns = max(max(angle / s.angle, most * mass / s.depth), most * abs(density_b * e - density_a * d) / s.depth);
-                if (light[i].type == light_directional)
-                    turns = max(most * mass / s.depth, most * abs(density_b - density_a) / s.depth);
-                // Pixels side by side go as far as any of them needs; each takes its own steps, so that none depends on the others.
-                float halvings = R(0.0);
-                float nodes = R(1.0);
-                int most_halvings = 0;
-                for (int n = 1; n <= grid_halvings && some(turns > nodes); ++n) {
-                    Bool more = turns > nodes;
-                    halvings += choose(more, R(1.0), R(0.0));
-                    nodes *= choose(more, R(2.0), R(1.0));
-                    most_halvings = n;
-                }
-                float part = angle / nodes;
-                for (int j = 0; j < 1 << most_halvings; ++j) {
-                    float low = a;
-                    float high = b;
-                    float middle = halfway(h, low, high);
-                    for (int n = most_halvings - 1; n >= 0; --n) {
-                        Bool halved = float(n) < halvings;
-                        bool upper = ((j >> n) & 1) == 1;
-                        low = choose(halved, upper ? middle : low, low);
-                        high = choose(halved, upper ? high : middle, high);
-                        middle = halfway(h, low, high);
-                    }
-                    float t = clamp(aspect[i].foot + middle, from, to);
-                    float x = t - aspect[i].foot;
-                    // dt of the node's part of the angle.
-                    float weight = choose(float(j) < nodes, or_zero(min((h * h + x * x) / h * part, width)), R(0.0));
-                    float along = (t - from) / max(width, R(1e-30));
-                    vec3 point = t * direction;
-                    float far = light[i].type == light_directional ? R(1.0) : length(point - light[i].position);
-                    float gaussians = or_zero(mix(density_a, density_b, along) * far);
-                    float depth = clamp(gaussians + terms_to_light(medium, light[i], point), R(0.0), density_limit);
-                    float strength = or_zero(lit_strength(medium, light[i], aspect[i], direction, t)) *
-                                     MAPPED_SHARE(i, low + aspect[i].foot, high + aspect[i].foot);
-                    vec3 arriving = min(strength * light[i].intensity, vec3(radiance_limit)) * grid_transmittance(medium, s, depth);
-                    MAPPED_ORDERS(i, t, depth)
+                StepNodes nodes = step_nodes(s, light[i], aspect[i].foot, height[i], from, to, most, mass, density_a, density_b);
+                for (int j = 0; j < 1 << nodes.most_halvings; ++j) {
+                    StepNode node = step_node(nodes, aspect[i].foot, from, to, j);
+                    float depth = depth_to_node(medium, light[i], direction, density_a, density_b, node);
+                    float part = MAPPED_SHARE(i, node.low + aspect[i].foot, node.high + aspect[i].foot);
+                    vec3 arriving = light_at_node(medium, s, light[i], aspect[i], direction, node.t, depth, part);
+                    MAPPED_ORDERS(i, node.t, depth)
                     // Of halved steps each part has its own transmittance to the camera.
                     vec3 source = whole;
-                    if (most_halvings > 0) {
-                        vec3 there = scattering * grid_transmittance(medium, s, before + mass * along);
-                        Bool halved = nodes > R(1.0);
-                        source = vec3(choose(halved, there.x, whole.x), choose(halved, there.y, whole.y), choose(halved, there.z, whole.z));
+                    if (nodes.most_halvings > 0) {
+                        vec3 there = scattering * grid_transmittance(medium, s, before + mass * node.along);
+                        source = choose(nodes.count > R(1.0), there, whole);
                     }
-                    vec3 amount = min(source * weight, vec3(radiance_limit));
+                    vec3 amount = min(source * node.weight, vec3(radiance_limit));
                     total += min(arriving * amount, vec3(radiance_limit));
                 }
             }
@@ -180,6 +88,67 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
         from = next;
         density = next_density;
         of_lights = next_lights;
+        terms = next_terms;
+    }
+    return min(total, vec3(radiance_limit));
+}
+
+#define GRID_IMAGES sampler2D slices, sampler2D grid_density, sampler2D grid_lights, sampler2D attenuation, \
+                    sampler2D attenuation_frames, sampler2D lights
+#define GRID_PASSED slices, grid_density, grid_lights, attenuation, attenuation_frames, lights
+
+// The same of any lights, of whose light the grid has the sum. Where that is not smooth, and in the step that the ray ends in, each
+// light is looked up.
+PURE vec3 lit_by_sums(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, int stride, GRID_IMAGES, int first, int last, vec2 place,
+                      vec3 direction, float distance)
+{
+    vec3 extinction = medium.scattering + medium.absorption;
+    vec3 total = vec3(R(0.0));
+    float from = R(0.0);
+    vec4 density = vec4(R(0.0));
+    float terms = R(0.0);
+    for (int k = 0; k < s.slices; k += stride) {
+        if (!some(from < distance))
+            break;
+        int slice = min(k + stride, s.slices);
+        float next = data_texel(slices, slice).x;
+        float to = max(min(next, distance), from);
+        float share = (to - from) / (next - from);
+        vec4 next_density = grid_between(grid_density, s, stride, slice, place);
+        float next_terms = density_integral(medium, direction, to);
+        float of_terms = max(next_terms - terms, R(0.0));
+        vec4 step = max(next_density - density, vec4(R(0.0))) * share;
+        float mass = step.x + of_terms;
+        if (some(mass > R(0.0))) {
+            vec3 scattered = min(medium.scattering * (vec3(step.y, step.z, step.w) + vec3(of_terms)), vec3(radiance_limit)) *
+                             grid_mean_exponential(s, extinction * mass);
+            float before = clamp(density.x + terms, R(0.0), density_limit);
+            vec3 tau = optical_depth(medium, before);
+            vec4 given = grid_between(grid_lights, s, stride, k, place);
+            vec3 arriving = exp(vec3(given) - tau);
+            Bool smooth_here = given.w > least_smooth;
+            if (stride > 1 && k + 1 < s.slices) {
+                vec4 second = grid_between(grid_lights, s, stride, k + 1, place);
+                arriving = R(0.5) * (arriving + exp(vec3(second) - tau));
+                smooth_here = smooth_here && second.w > least_smooth;
+            }
+            Bool apart = mass > R(0.0) && (!smooth_here || to < next);
+            if (some(apart)) {
+                vec3 sum = vec3(R(0.0));
+                for (int i = first; i < last; ++i) {
+                    Light light = light_at(lights, i);
+                    AttenuationFrame frame = attenuation_frame(attenuation_frames, i);
+                    Aspect aspect = aspect_to(light, direction);
+                    float density_a = attenuation_density(frame, attenuation, s.side, s.nodes, i - s.mapped, light, from * direction);
+                    float density_b = attenuation_density(frame, attenuation, s.side, s.nodes, i - s.mapped, light, to * direction);
+                    sum += light_of_step(medium, s, light, aspect, direction, from, to, mass, density_a, density_b);
+                }
+                arriving = choose(apart, min(sum, vec3(radiance_limit)) * grid_transmittance(medium, s, before), arriving);
+            }
+            total += min(arriving * scattered, vec3(radiance_limit));
+        }
+        from = next;
+        density = next_density;
         terms = next_terms;
     }
     return min(total, vec3(radiance_limit));

@@ -131,19 +131,22 @@ PURE Panel finished_panel(IN(Path) path, float dz, vec3 sum, float value[8], flo
 
 // The integral over z in [z, z + dz].
 PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler2D tile_gaussians, IN(Sight) sight, int index,
-                    IN(Light) light, IN(Aspect) aspect, int part, IN(Path) path, float z, float dz)
+                    IN(Light) light, IN(Aspect) aspect, IN(TermEnds) ends, int part, IN(Path) path, float z, float dz)
 {
     float t[8];
     float dt[8];
     float p[8];
     float rho[8];
+    float to_light[8];
     for (int k = 0; k < panel_nodes; ++k) {
         float x = k < 4 ? -panel_node[3 - k] : panel_node[k - 4];
         vec2 node = on_path(path, z + dz * (R(0.5) + R(0.5) * x));
         t[k] = clamp(node.x, R(0.0), sight.distance);
         dt[k] = node.y * dz;
-        p[k] = density_integral(medium, sight.direction, t[k]);
-        rho[k] = part == part_terms ? density_at(medium, t[k] * sight.direction) : R(0.0);
+        TermsAt terms = terms_at(medium, ends, light, sight.direction, t[k]);
+        p[k] = terms.from_camera;
+        to_light[k] = terms.from_light;
+        rho[k] = part == part_terms ? terms.density : R(0.0);
     }
     vec3 scattering = medium.scattering;
     for (int i = 0; i < sight.count; ++i) {
@@ -174,7 +177,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         float strength = min(rho[k] * lit_strength(medium, light, aspect, sight.direction, t[k]), radiance_limit);
         if (strength > R(0.0)) {
             vec3 point = t[k] * sight.direction;
-            float p_all = p[k] + terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, index, light, point);
+            float p_all = p[k] + to_light[k] + shadow_density(SHADOW_PASSED, camera, index, light, point);
             vec3 tau = optical_depth(medium, clamp(p_all, R(0.0), density_limit));
             f = min(min(strength * dt[k], radiance_limit) * light.intensity, vec3(radiance_limit)) * exp(-tau);
             f = min(f * scattering, vec3(radiance_limit));
@@ -188,9 +191,15 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
     return finished_panel(path, dz, sum, value, noise);
 }
 
-// The part of the ray where the constant and exponential terms scatter: x, y from where P is a share of what it comes to
-// before all is extinct to where it is nearly all of that; z the length over which that falls off.
-PURE vec3 terms_range(IN(Medium) medium, IN(Sight) sight)
+// What is sought to tell where the constant and exponential terms scatter.
+struct TermsSought {
+    float end;
+    float least;  // extinction of a colour
+    float whole;  // P at the end, or where all is extinct
+    vec3 share;   // of P, where their place is sought
+};
+
+PURE TermsSought terms_sought(IN(Medium) medium, IN(Sight) sight)
 {
     vec3 extinction = medium.scattering + medium.absorption;
     float least = density_limit;
@@ -198,26 +207,45 @@ PURE vec3 terms_range(IN(Medium) medium, IN(Sight) sight)
         if (extinction[c] > R(0.0))
             least = min(least, extinction[c]);
     float end = min(sight.distance, quadrature_limit);
+    float whole = medium.term_count == 0 ? R(0.0) : min(density_integral(medium, sight.direction, end), R(18.0) / least);
+    return TermsSought(end, least, whole, vec3(R(1e-6) * whole, R(0.999999) * whole, min(R(0.63) * whole, R(1.0) / least)));
+}
+
+// Logarithms of distances, which range from millimetres to the sky: places are sought in fifths of fifths of fifths of them.
+const float log_nearest = R(-6.90775527898);  // of a millimetre
+const int terms_fifths = 3;
+
+// low: logarithms of places of the shares, each within a width.
+PURE vec3 terms_found(IN(Medium) medium, IN(TermsSought) sought, vec3 low, float width)
+{
     if (medium.term_count == 0) {
-        float length = R(1.0) / max(least * medium.constant, R(1e-30));
-        return vec3(R(0.0), min(end, R(18.0) * length), min(end, length));
+        float length = R(1.0) / max(sought.least * medium.constant, R(1e-30));
+        return vec3(R(0.0), min(sought.end, R(18.0) * length), min(sought.end, length));
     }
-    float whole = min(density_integral(medium, sight.direction, end), R(18.0) / least);
-    // Shares of it, found by bisection of the logarithm: distances range from millimetres to the sky.
-    vec3 share = vec3(R(1e-6) * whole, R(0.999999) * whole, min(R(0.63) * whole, R(1.0) / least));
-    vec3 low = vec3(R(1e-3));
-    vec3 high = vec3(max(end, R(1e-3)));
-    for (int i = 0; i < 14; ++i)
-        for (int k = 0; k < 3; ++k) {
-            float middle = sqrt(low[k] * high[k]);
-            if (density_integral(medium, sight.direction, middle) < share[k])
-                low[k] = middle;
-            else
-                high[k] = middle;
-        }
+    float first = exp(low.x);
+    float last = exp(low.y + width);
     // Light that comes through the dense part may come alive only where that share is spent.
-    float reach = whole * least < R(18.0) ? R(2.0) * high.y : high.y;
-    return vec3(low.x > R(0.1) * high.y ? low.x : R(0.0), min(reach, end), min(high.z, end));
+    float reach = sought.whole * sought.least < R(18.0) ? R(2.0) * last : last;
+    return vec3(first > R(0.1) * last ? first : R(0.0), min(reach, sought.end), min(exp(low.z + width), sought.end));
+}
+
+// The part of the ray where the constant and exponential terms scatter: x, y from where P is a share of what it comes to
+// before all is extinct to where it is nearly all of that; z the length over which that falls off.
+PURE vec3 terms_range(IN(Medium) medium, IN(Sight) sight)
+{
+    TermsSought sought = terms_sought(medium, sight);
+    vec3 low = vec3(log_nearest);
+    float width = max(log(max(sought.end, R(1e-3))) - log_nearest, R(0.0));
+    for (int level = 0; level < terms_fifths && medium.term_count > 0; ++level) {
+        width *= R(0.2);
+        for (int i = 0; i < 3; ++i) {
+            float from = low[i];
+            for (int k = 1; k < 5; ++k)
+                if (density_integral(medium, sight.direction, exp(from + float(k) * width)) < sought.share[i])
+                    low[i] = from + float(k) * width;
+        }
+    }
+    return terms_found(medium, sought, low, width);
 }
 
 // The path over [range.x, range.y] for a part that falls off over `decay`.
@@ -290,6 +318,7 @@ PURE Airlight light_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSe
                              sampler2D tile_gaussians, IN(Sight) sight, int index, IN(Light) light, IN(Aspect) aspect, bool has_terms,
                              vec3 terms, vec2 within, Airlight total)
 {
+    TermEnds ends = term_ends(medium, light);
     for (int piece = 0; piece < (light.type == light_spot ? 3 : 1); ++piece) {
         vec2 lit = lit_piece(light, sight.direction, min(sight.distance, quadrature_limit), piece);
         lit = vec2(max(lit.x, within.x), min(lit.y, within.y));
@@ -303,7 +332,8 @@ PURE Airlight light_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSe
             float z = R(0.0);
             float dz = span.path.crowded == 1 ? R(0.5) : R(1.0);
             while (z < R(1.0)) {
-                Panel panel = panel_of(medium, camera, SHADOW_PASSED, tile_gaussians, sight, index, light, aspect, part, span.path, z, dz);
+                Panel panel = panel_of(medium, camera, SHADOW_PASSED, tile_gaussians, sight, index, light, aspect, ends, part, span.path,
+                                       z, dz);
                 --left;
                 vec3 so_far = total.radiance + panel.sum;
                 if (panel.doubt > settings.tolerance * (so_far.x + so_far.y + so_far.z) / R(3.0) && left > 0) {

@@ -3,7 +3,8 @@
 // Its points lie on the corners of squares of `cell` pixels, at distances from the camera that all rays share ("slices"):
 //   slices         data, one channel: the distances, the first is 0
 //   grid_density   of the Gaussians from the camera to there: x int rho dt, yzw that of what scatters red, green and blue
-//   grid_lights    of four lights, attenuation_density() there
+//   grid_lights    of up to four lights, attenuation_density() there, or of any number (`summed`): xyz the logarithm of what they send
+//                  along the step that begins there (light_of_step()), w 1 where that is smooth between the corners, else 0
 // Slice k has its columns x rows texels from (k % across, k / across) times that on.
 
 struct GridSettings {
@@ -17,6 +18,7 @@ struct GridSettings {
     int nodes;       // and their distances
     int mapped;      // the light whose map is the first
     int gaussians;
+    int summed;
     int grey;        // scattering and absorption have no colour
     float angle;     // [rad] and optical depth that a step may have, each way
     float depth;

@@ -28,6 +28,7 @@
 #include "attenuation.glsl"
 #include "grid_settings.glsl"
 #include "grid_fetch.glsl"
+#include "airlight_step.glsl"
 #include "grid_lights.glsl"
 #include "airlight_mapped.glsl"
 #include "airlight_grid.glsl"
@@ -44,6 +45,8 @@ uniform sampler2D gaussian_density;
 uniform sampler2D slices;
 uniform sampler2D grid_density;
 uniform sampler2D grid_lights;
+uniform sampler2D attenuation;
+uniform sampler2D attenuation_frames;
 uniform sampler2D lights;
 uniform sampler2D environment;
 uniform sampler2D environment_table;

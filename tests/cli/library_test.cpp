@@ -61,7 +61,7 @@ TEST_F(ImageLibraryLoading, WaitsForThePictureThatNeedsIt)
     EXPECT_TRUE(loads_it({"run", scene, exr, "-o", out, "--backend", "cpu", "--preview", (folder_ / "p.png").string()}));
 }
 
-TEST(Dependencies, TheLibraryAndTheToolNeedNoOpenImageIO)
+TEST(Dependencies, TheLibraryAndTheToolNeedNeitherOpenImageIONorOpenVdb)
 {
     for (const std::string file : {BRUME_LIBRARY, BRUME_TOOL}) {
         const Folder folder;
@@ -69,6 +69,7 @@ TEST(Dependencies, TheLibraryAndTheToolNeedNoOpenImageIO)
         const std::string needed = read_text(folder / "needed");
         EXPECT_NE(needed.find("libtbb"), std::string::npos) << needed;
         EXPECT_EQ(needed.find("OpenImageIO"), std::string::npos) << file;
+        EXPECT_EQ(needed.find("libopenvdb"), std::string::npos) << file;
     }
 }
 

@@ -1,4 +1,6 @@
 // Tier `maps`: attenuation maps and a grid, against tier `nodes`, which integrates the same media along each ray.
+#include <ctime>
+
 #include <gtest/gtest.h>
 
 #include "lit_scene.h"
@@ -133,12 +135,17 @@ std::vector<NamedScene> clouds()
     return all;
 }
 
-TEST(AirlightMaps, AgreeWithNodes)
+// One test, since what is exact takes most of its time.
+TEST(AirlightMaps, AgreeWithNodesAndBoundTheirError)
 {
     const Frame frame = lit_frame(96, 64);
+    int bounded = 0, all = 0;
+    std::vector<double> excess;
     for (const NamedScene &s : clouds()) {
         const Picture exact = airlight_of(cpu(), with(with(s.scene, "tier", "nodes"), "max_error", 0.0005), frame);
-        const Errors e = errors(airlight_of(cpu(), with(s.scene, "tier", "maps"), frame), exact),
+        const Result r = run(cpu(), with(s.scene, "tier", "maps").dump(), frame.color, frame.depth,
+                             Options{{}, {"airlight", "airlight_error"}});
+        const Errors e = errors(r.airlight, exact),
                      fine =
                          errors(airlight_of(cpu(), with(with(s.scene, "tier", "maps"), "max_error", 0.001), frame), exact);
         report(s.name, e);
@@ -148,7 +155,37 @@ TEST(AirlightMaps, AgreeWithNodes)
         EXPECT_LT(e.p95, 0.02) << s.name;
         EXPECT_LT(fine.median, 0.002) << s.name;
         EXPECT_LT(fine.p95, 0.015) << s.name;
+        int here = 0, of = 0;
+        for (size_t i = 0; i < exact.data.size(); ++i) {
+            const double error = std::abs(double(r.airlight.data[i]) - double(exact.data[i]));
+            here += error <= double(r.airlight_error.data[i]) + 1e-5 * double(exact.data[i]);
+            ++of;
+            if (error > 1e-6 * double(exact.data[i]))
+                excess.push_back(double(r.airlight_error.data[i]) / error);
+        }
+        printf("%s: bounded in %.1f %%\n", s.name, 100.0 * here / of);
+        bounded += here;
+        all += of;
     }
+    std::sort(excess.begin(), excess.end());
+    printf("median of estimate / error %.2g\n", excess[excess.size() / 2]);
+    EXPECT_GE(double(bounded) / all, 0.95);
+    EXPECT_LE(excess[excess.size() / 2], 10);
+}
+
+// Where the grid has sums of lights, which an error layer does without.
+TEST(AirlightMaps, SumsAgreeWithEachLight)
+{
+    const Frame frame = lit_frame(320, 200);
+    const Json scene = with(scene_of(cloud(300, 21), lamps(3)), "tier", "maps");
+    const Picture sums = airlight_of(cpu(), scene, frame),
+                  each = run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}})
+                             .airlight;
+    const Errors e = errors(sums, each);
+    report("sums", e);
+    EXPECT_GT(e.worst, 0) << "the grid has no sums";
+    EXPECT_LT(e.median, 1e-3);
+    EXPECT_LT(e.p95, 3e-3);
 }
 
 #ifdef BRUME_GL
@@ -165,6 +202,32 @@ TEST(AirlightMaps, GpuAgainstCpu)
     }
 }
 #endif
+
+// What several lights send is summed before it is looked up, so that another costs little.
+TEST(AirlightMaps, EightLampsCostLittleMoreThanOne)
+{
+    const Frame frame = lit_frame(640, 400);
+    const Json density = cloud(1000, 15), all = lamps(8);
+    Options options{{}, {"airlight"}};
+    Context one(BRUME_BACKEND_CPU, 1);
+    const Plan few(one, with(scene_of(density, Json::array({all[0]})), "tier", "maps").dump(), 640, 400, options),
+        many(one, with(scene_of(density, all), "tier", "maps").dump(), 640, 400, options);
+    auto least = [&](const Plan &plan) {
+        std::clock_t least = 0;
+        for (int i = 0; i < 2; ++i) {
+            const brume_camera moved = camera(pose({0.01 * i, 0, 0}), 50);
+            options.camera = &moved;
+            const std::clock_t start = std::clock();
+            plan.execute(frame.color, frame.depth, options);
+            const std::clock_t taken = std::clock() - start;
+            least = i == 0 ? taken : std::min(least, taken);
+        }
+        return double(least);
+    };
+    const double alone = least(few), together = least(many);
+    printf("eight lamps: %.2f times one\n", together / alone);
+    EXPECT_LT(together, 3.5 * alone);
+}
 
 // Light adds up, over rounds of four and beyond the maps that are kept.
 TEST(AirlightMaps, ManyLightsAreTheSumOfEach)
@@ -232,33 +295,6 @@ TEST(AirlightMaps, LessMemoryIsACoarserGrid)
     report("8 MB", coarse);
     EXPECT_LT(coarse.median, 0.01);
     EXPECT_LT(coarse.p95, 0.1);
-}
-
-TEST(AirlightMaps, ErrorEstimateBoundsTheError)
-{
-    const Frame frame = lit_frame(96, 64);
-    int bounded = 0, all = 0;
-    std::vector<double> excess;
-    for (const NamedScene &s : clouds()) {
-        const Picture exact = airlight_of(cpu(), with(with(s.scene, "tier", "nodes"), "max_error", 0.0005), frame);
-        const Result r = run(cpu(), with(s.scene, "tier", "maps").dump(), frame.color, frame.depth,
-                             Options{{}, {"airlight", "airlight_error"}});
-        int here = 0, of = 0;
-        for (size_t i = 0; i < exact.data.size(); ++i) {
-            const double error = std::abs(double(r.airlight.data[i]) - double(exact.data[i]));
-            here += error <= double(r.airlight_error.data[i]) + 1e-5 * double(exact.data[i]);
-            ++of;
-            if (error > 1e-6 * double(exact.data[i]))
-                excess.push_back(double(r.airlight_error.data[i]) / error);
-        }
-        printf("%s: bounded in %.1f %%\n", s.name, 100.0 * here / of);
-        bounded += here;
-        all += of;
-    }
-    std::sort(excess.begin(), excess.end());
-    printf("median of estimate / error %.2g\n", excess[excess.size() / 2]);
-    EXPECT_GE(double(bounded) / all, 0.95);
-    EXPECT_LE(excess[excess.size() / 2], 10);
 }
 
 // Where one Gaussian would do, nothing changes; where there are many, maps are taken and the plan says so.

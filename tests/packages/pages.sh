@@ -19,10 +19,10 @@ check() { # PAGE COMMAND...
   [ -f "$page" ] || { fail "$page: missing"; return; }
   text=$(mandoc -T ascii "$page" | col -b)
   for option in $("$@" --help | sed -n 's/^  \(-[^ {]*\).*/\1/p' | tr ',' '\n'); do
-    grep -qE -- "(^|[ ,])$option( |,|\$)" <<<"$text" || fail "$page: no $option"
+    [[ $text =~ (^|[[:space:],])$option([[:space:],]|$) ]] || fail "$page: no $option"
   done
   for sub in $(subcommands "$@"); do
-    grep -q -- "$(basename "$page" .1)-$sub(1)" <<<"$text" || fail "$page: no word of $sub"
+    [[ $text == *"$(basename "$page" .1)-$sub(1)"* ]] || fail "$page: no word of $sub"
     check "$(basename "$page" .1)-$sub" "$@" "$sub"
   done
 }
@@ -33,9 +33,9 @@ check brume "$brume"
 scene=$(mandoc -T ascii -O width=1000 "$pages/man/man5/brume-scene.5" | col -b)
 for key in brume metres_per_unit camera.vertical_fov 'medium.density[].falloff' 'lights[].shadow.file' environment.sh \
   quality.max_error; do
-  grep -qF -- "$key" <<<"$scene" || fail "brume-scene.5: no $key"
+  [[ $scene == *"$key"* ]] || fail "brume-scene.5: no $key"
 done
 for parameter in $("$brume" effects | awk '/^[a-z]/ {effect = $1} /^  [a-z]/ && $2 != "layer" {print "effects." effect "." $1}'); do
-  grep -qF -- "$parameter" <<<"$scene" || fail "brume-scene.5: no $parameter"
+  [[ $scene == *"$parameter"* ]] || fail "brume-scene.5: no $parameter"
 done
 exit $failed

@@ -18,11 +18,11 @@ cp "$source/cmake/portable/brume" "$kit/bin/"
 cp "$work/stage/bin/brume" "$kit/libexec/"
 libraries=$(dirname "$(find "$work/stage" -name 'libbrume.so.0')")
 cp -L "$libraries/libbrume.so.0" "$kit/lib/"
-cp -r "$libraries/brume" "$kit/lib/"
+cp -r "$libraries/brume" "$libraries/brume-modules/brume-vdb.so" "$kit/lib/"
 cp -r "$work/stage/share/man" "$work/stage/share/bash-completion" "$kit/share/"
 cp "$source/README.md" "$source/LICENSE" "$source/CHANGELOG.md" "$kit/"
 # Of whom they are, and on what terms.
-for library in $(collect_libraries "$kit" "$kit/libexec/brume" "$kit"/lib/libbrume.so.0 "$kit"/lib/brume/*); do
+for library in $(collect_libraries "$kit" "$kit/libexec/brume" "$kit"/lib/libbrume.so.0 "$kit"/lib/brume-vdb.so "$kit"/lib/brume/*); do
   package=$(dpkg -S "$(realpath "$library")" 2>/dev/null || dpkg -S "$library") || fail "$library: of no package"
   cp -L "/usr/share/doc/${package%%:*}/copyright" "$kit/share/doc/libraries/${package%%:*}"
 done

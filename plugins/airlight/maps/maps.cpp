@@ -22,13 +22,16 @@ using brume::maths_float::GridSettings;
 using brume::maths_float::ivec2;
 using maps::Constants;
 
-constexpr int lights_at_once = brume::maths_float::grid_lights_at_once;
+constexpr int most_depths = brume::maths_float::grid_lights_at_once;
 
 // Lights whose maps are kept; more have theirs made in every frame.
 constexpr int most_kept_maps = 64;
 
 constexpr uint64_t most_map_bytes = uint64_t(64) << 20;
 constexpr int widest = 8192;  // of the grid's images
+
+// A cell whose lights are summed, as seen from the camera: a share of the angle that a step may have from a light.
+constexpr float widest_summed = 0.05f;
 
 // Unasked, maps are for many Gaussians and errors that their grid reaches.
 constexpr uint32_t fewest_gaussians = 8;
@@ -43,15 +46,28 @@ constexpr brume_slot density_slots[] = {fetch("gaussians"), fetch("tiles"), fetc
                                         write("result")};
 static_assert(std::size(density_slots) == maps::density::slot_count);
 
-constexpr brume_slot lights_slots[] = {fetch("attenuation"), fetch("attenuation_frames"), fetch("lights"), fetch("slices"),
-                                       write("result")};
+constexpr brume_slot lights_slots[] = {fetch("attenuation"), fetch("attenuation_frames"), fetch("lights"),
+                                       fetch("slices"),      fetch("grid_density"),       write("result")};
 static_assert(std::size(lights_slots) == maps::lights::slot_count);
 
-constexpr brume_slot gather_slots[] = {
-    fetch("depth"),          fetch("gaussian_density"), fetch("slices"),      linear("grid_density"),
-    linear("grid_lights"),   fetch("lights"),           fetch("environment"), fetch("environment_table"),
-    fetch("surroundings"),   fetch("light_shadows"),    fetch("shadow_maps"), fetch("previous"),
-    fetch("previous_error"), write("radiance"),         write("error"),       write("distances")};
+constexpr brume_slot gather_slots[] = {fetch("depth"),
+                                       fetch("gaussian_density"),
+                                       fetch("slices"),
+                                       linear("grid_density"),
+                                       linear("grid_lights"),
+                                       fetch("attenuation"),
+                                       fetch("attenuation_frames"),
+                                       fetch("lights"),
+                                       fetch("environment"),
+                                       fetch("environment_table"),
+                                       fetch("surroundings"),
+                                       fetch("light_shadows"),
+                                       fetch("shadow_maps"),
+                                       fetch("previous"),
+                                       fetch("previous_error"),
+                                       write("radiance"),
+                                       write("error"),
+                                       write("distances")};
 static_assert(std::size(gather_slots) == maps::gather::slot_count);
 
 constexpr brume_constant constants_table[] = {BRUME_GRID_SETTINGS(Constants), BRUME_AIRLIGHT_SETTINGS(Constants),
@@ -84,12 +100,13 @@ brume_status create_map_passes(const brume_services &services, brume_host host, 
     if (brume_status s = create(services, host, pass("grid", density_slots, 1), "airlight_map_density.comp",
                                 pass_text("airlight_map_density.comp"), "", rows.density, m.density_pass))
         return s;
-    if (brume_status s = create(services, host, pass("grid", lights_slots, 16), "airlight_map_lights.comp",
+    if (brume_status s = create(services, host, pass("grid", lights_slots, 1), "airlight_map_lights.comp",
                                 pass_text("airlight_map_lights.comp"), "", rows.lights, m.lights_pass))
         return s;
-    return create(
-        services, host, pass("gather", gather_slots, 4), "airlight_map_gather.comp", pass_text("airlight_map_gather.comp"),
-        define("ESTIMATE", state.error != nullptr) + define("ORDERS", gathers_orders(state)), rows.gather, m.gather_pass);
+    return create(services, host, pass(maps_gather, gather_slots, 4), "airlight_map_gather.comp",
+                  pass_text("airlight_map_gather.comp"),
+                  define("ESTIMATE", state.error != nullptr) + define("ORDERS", gathers_orders(state)), rows.gather,
+                  m.gather_pass);
 }
 
 }  // namespace
@@ -101,7 +118,7 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     const maps::Fineness fineness = maps::fineness_of(p.max_error);
     MapsOffer offer{maps::sizes_of(scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, fineness,
                                    uint64_t(p.memory * 1e6)),
-                    false, 0};
+                    false, 0, 0, 0};
     offer.suits = p.max_error >= least_error && offer.sizes.fine &&
                   (scene.gaussians ? scene.gaussian_count >= fewest_gaussians : scene.gaussian_count > 0);
     // Orders beyond the first go pixel by pixel.
@@ -111,14 +128,18 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
                  side = fineness.side, of_list = 40 * std::sqrt(1 + 0.1 * scene.gaussian_count),
                  points = double(corners(state.width, offer.sizes.cell)) * corners(state.height, offer.sizes.cell);
     const double of_backend = request.backend == BRUME_BACKEND_GL ? 6 : 1;  // software GL, as the others are counted
-    offer.operations = of_backend * (pixels * slices * (8 + 6 * looked_up) + points * (slices * (4 + 6 * lights) + of_list) +
-                                     lights * side * side * of_list);
+    // Where neighbours have cells of their own, the CPU takes them one by one.
+    const double of_pixel = request.backend == BRUME_BACKEND_CPU && offer.sizes.cell < 2 * p.reduction ? 7 : 1;
+    offer.of_pixels = of_backend * of_pixel * pixels * slices * (8 + 6 * looked_up);
+    offer.of_grid = of_backend * points * (slices * (4 + 6 * lights) + of_list);
+    offer.of_maps = of_backend * lights * side * side * of_list;
     return offer;
 }
 
 brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene,
-                       const maps::Sizes &sizes, State &state)
+                       const MapsOffer &offer, State &state)
 {
+    const maps::Sizes &sizes = offer.sizes;
     const Parameters &p = state.parameters;
     const maps::Fineness fineness = maps::fineness_of(p.max_error);
     Maps &m = state.maps;
@@ -137,8 +158,8 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     s.depth = float(fineness.depth);
     s.doubt = float(fineness.doubt);
     const uint64_t map_bytes = uint64_t(s.side) * uint64_t(s.side) * uint64_t(s.nodes) * 4;
-    const int room = std::clamp(int(most_map_bytes / map_bytes), lights_at_once, std::min(most_kept_maps, 16384 / s.side));
-    m.kept = std::clamp(int(scene.light_count), lights_at_once, room);
+    const int room = std::clamp(int(most_map_bytes / map_bytes), most_depths, std::min(most_kept_maps, 16384 / s.side));
+    m.kept = std::clamp(int(scene.light_count), most_depths, room);
 
     auto image = [&](const char *label, ivec2 size, int32_t channels, brume_plugin_image &out) {
         return services.create_image(host, label, size.x, size.y, channels, &out);
@@ -165,12 +186,12 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
             entry("maps",
                   std::to_string(s.side) + " x " + std::to_string(s.side) + " directions, " + std::to_string(s.nodes) +
                       " distances around each light, when a light or the medium moved",
-                  lights * double(map_bytes), 0))
+                  lights * double(map_bytes), offer.of_maps))
         return e;
     if (brume_status e = entry("grid",
                                "cells of " + std::to_string(s.cell) + " px, " + std::to_string(s.slices) + " distances, " +
                                    std::to_string((sizes.bytes + 500000) / 1000000) + " MB, when something moved",
-                               points * 32, points * 4 * lights))
+                               points * 32, offer.of_grid))
         return e;
     return create_map_passes(services, host, state);
 }
@@ -206,8 +227,14 @@ public:
         constants_.grid = maps_.settings;
         constants_.airlight = settings_of(state, *frame.scene);
         constants_.estimate = state.error != nullptr;
+        // Shadow maps and orders tell pixels and lights apart, and across wide cells little is smooth enough to be summed.
+        constants_.grid.summed =
+            !state.error && !constants_.airlight.shadowed &&
+            constants_.airlight.orders == brume::maths_float::orders_single &&
+            float(constants_.grid.cell) < widest_summed * constants_.grid.angle * frame.scene->camera->focal[0];
     }
 
+    int lights_at_once() const { return constants_.grid.summed ? maps_.kept : most_depths; }
     // Whether there is room for the maps of all lights.
     bool keeps() const { return int(frame_.scene->light_count) <= maps_.kept; }
     brume_status maps_of(int first, int last);
@@ -271,9 +298,9 @@ brume_status Run::lights(int first, int last)
     images[slot::frames] = maps_.frames;
     images[slot::lights] = product(product_lights);
     images[slot::slices] = maps_.slices;
+    images[slot::grid_density] = maps_.density;
     images[slot::result] = maps_.lights;
-    const ivec2 size = grid_size(constants.grid);
-    return services_.run(host_, maps_.lights_pass, images, &constants, size.x, size.y, nullptr);
+    return services_.run(host_, maps_.lights_pass, images, &constants, constants.grid.columns, constants.grid.rows, nullptr);
 }
 
 brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, brume_plugin_image before_error)
@@ -281,6 +308,7 @@ brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, 
     namespace slot = maps::gather;
     Constants constants = constants_;
     constants.light_range = ivec2(wanted.first, wanted.last);
+    constants.grid.mapped = keeps() ? 0 : wanted.first;
     constants.reduction = wanted.reduction;
     if (!wanted.environment)
         constants.airlight.environment_order = 0;
@@ -290,6 +318,8 @@ brume_status Run::gather(const MappedGather &wanted, brume_plugin_image before, 
     images[slot::slices] = maps_.slices;
     images[slot::grid_density] = maps_.density;
     images[slot::grid_lights] = maps_.lights;
+    images[slot::attenuation] = maps_.attenuation;
+    images[slot::frames] = maps_.frames;
     images[slot::lights] = product(product_lights);
     images[slot::environment] = state_.environment;
     images[slot::environment_table] = state_.environment_table;
@@ -322,11 +352,11 @@ brume_status gather_by_maps(const brume_services &services, brume_host host, con
             return s;
         m.grid_pending = false;
     }
-    const int rounds = std::max(1, (wanted.last - wanted.first + lights_at_once - 1) / lights_at_once);
+    const int at_once = run.lights_at_once(), rounds = std::max(1, (wanted.last - wanted.first + at_once - 1) / at_once);
     for (int round = 0; round < rounds; ++round) {
         MappedGather now = wanted;
-        now.first = wanted.first + round * lights_at_once;
-        now.last = std::min(now.first + lights_at_once, wanted.last);
+        now.first = wanted.first + round * at_once;
+        now.last = std::min(now.first + at_once, wanted.last);
         const ivec2 range(now.first, now.last);
         if (range.x < range.y && m.in_grid != range) {
             if (!run.keeps())

@@ -33,16 +33,22 @@ struct Maps {
     maps::Frames placed;
 };
 
+// What gathers from maps, by a name of its own: it takes another time an operation than what integrates by nodes.
+constexpr const char *maps_gather = "lookup";
+
 struct MapsOffer {
     maps::Sizes sizes;
-    bool suits;         // may be taken unasked
-    double operations;  // of a frame in which all moved, as brume_plugin_entry counts them
+    bool suits;  // may be taken unasked
+    // Of a frame in which all moved, as brume_plugin_entry counts them.
+    double of_pixels, of_grid, of_maps;
+
+    double operations() const { return of_pixels + of_grid + of_maps; }
 };
 MapsOffer offer_maps(const brume_plugin_request &request, const State &state);
 
 // At planning: images, passes and their entries.
 brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene,
-                       const maps::Sizes &sizes, State &state);
+                       const MapsOffer &offer, State &state);
 
 // Of a frame whose lights, Gaussians or camera moved, after the lists of shadow_lists.h. moved: not the camera alone.
 brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,

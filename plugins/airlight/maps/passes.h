@@ -10,9 +10,9 @@
         BRUME_CONSTANT_OF(Struct, grid, cell), BRUME_CONSTANT_OF(Struct, grid, slices),                                     \
         BRUME_CONSTANT_OF(Struct, grid, across), BRUME_CONSTANT_OF(Struct, grid, side),                                     \
         BRUME_CONSTANT_OF(Struct, grid, nodes), BRUME_CONSTANT_OF(Struct, grid, mapped),                                    \
-        BRUME_CONSTANT_OF(Struct, grid, gaussians), BRUME_CONSTANT_OF(Struct, grid, grey),                                  \
-        BRUME_CONSTANT_OF(Struct, grid, angle), BRUME_CONSTANT_OF(Struct, grid, depth),                                     \
-        BRUME_CONSTANT_OF(Struct, grid, doubt)
+        BRUME_CONSTANT_OF(Struct, grid, gaussians), BRUME_CONSTANT_OF(Struct, grid, summed),                                \
+        BRUME_CONSTANT_OF(Struct, grid, grey), BRUME_CONSTANT_OF(Struct, grid, angle),                                      \
+        BRUME_CONSTANT_OF(Struct, grid, depth), BRUME_CONSTANT_OF(Struct, grid, doubt)
 
 namespace airlight::maps {
 
@@ -20,7 +20,7 @@ namespace airlight::maps {
 struct Constants {
     brume::maths_float::GridSettings grid;
     brume::maths_float::AirlightSettings airlight;
-    brume::maths_float::ivec2 light_range;  // the lights [x, y), four at most
+    brume::maths_float::ivec2 light_range;  // the lights [x, y); four at most where the grid has no sums
     int32_t reduction;
     int32_t estimate;  // the error is wanted
 };
@@ -32,7 +32,7 @@ namespace density {
 enum Slot { gaussians, tiles, tile_gaussians, slices, result, slot_count };
 }
 namespace lights {
-enum Slot { attenuation, frames, lights, slices, result, slot_count };
+enum Slot { attenuation, frames, lights, slices, grid_density, result, slot_count };
 }
 namespace gather {
 enum Slot {
@@ -41,6 +41,8 @@ enum Slot {
     slices,
     grid_density,
     grid_lights,
+    attenuation,
+    frames,
     lights,
     environment,
     environment_table,

@@ -35,7 +35,8 @@ brume_status gather_pixels(const brume_plugin_rows *call, int32_t first, int32_t
     const brume_plugin_pixels *slots = call->slots;
     const Texture depth = texture_of(slots[gather::depth]), gaussian_density = texture_of(slots[gather::gaussian_density]),
                   slices = texture_of(slots[gather::slices]), grid_density = texture_of(slots[gather::grid_density]),
-                  grid_lights = texture_of(slots[gather::grid_lights]), lights = texture_of(slots[gather::lights]),
+                  grid_lights = texture_of(slots[gather::grid_lights]), attenuation = texture_of(slots[gather::attenuation]),
+                  attenuation_frames = texture_of(slots[gather::frames]), lights = texture_of(slots[gather::lights]),
                   environment = texture_of(slots[gather::environment]),
                   environment_table = texture_of(slots[gather::environment_table]),
                   surroundings = texture_of(slots[gather::surroundings]),

@@ -1,8 +1,16 @@
 #include "commands/all.hpp"
 
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+
 #include <CLI/CLI.hpp>
 #include <brume/brume.h>
 #include <fmt/format.h>
+
+#include "support/error.hpp"
+#include "support/text.hpp"
 
 namespace brume::tool {
 
@@ -19,6 +27,30 @@ std::unique_ptr<CLI::App> make_command_line(Action &chosen)
                            add_schema, add_sheet, add_stats, add_media})
         add(*app, chosen);
     return app;
+}
+
+int run_command_line(int argc, char **argv)
+{
+    Action chosen;
+    const auto app = make_command_line(chosen);
+    try {
+        app->parse(argc, argv);
+        return chosen();
+    } catch (const CLI::ParseError &e) {
+        return app->exit(e) == 0 ? kDone : kWrongRequest;
+    } catch (const RequestError &e) {
+        fmt::print(stderr, "brume: {}\n", printable(e.what()));
+        return kWrongRequest;
+    } catch (const std::filesystem::filesystem_error &e) {
+        fmt::print(stderr, "brume: {}: {}\n", printable(e.path1().string()), e.code().message());
+        return kWrongRequest;
+    } catch (const std::bad_alloc &) {
+        fmt::print(stderr, "brume: out of memory\n");
+        return kSomeFailed;
+    } catch (const std::exception &e) {
+        fmt::print(stderr, "brume: {}\n", printable(e.what()));
+        return kSomeFailed;
+    }
 }
 
 }  // namespace brume::tool

@@ -19,7 +19,14 @@ struct VdbDensity {
 };
 
 /// `name` empty: the grid "density", or the only one of floats. A level set counts as density 1 inside. Grids of more than
-/// a million voxels are averaged down. Throws RequestError; also where the tool was built without OpenVDB.
+/// a million voxels are averaged down. Throws RequestError; also where the module is not installed.
 VdbDensity read_vdb(const std::filesystem::path &file, const std::string &name);
+
+/// What reads lies in a module of its own, `brume-vdb`: of what a command takes to start, loading OpenVDB would be the half.
+using VdbReader = VdbDensity (*)(const std::filesystem::path &file, const std::string &name);
+
+/// What the module exports: its VdbReader, if this text is the same in both.
+constexpr const char *kVdbModuleEntry = "brume_vdb_reader";
+constexpr const char *kVdbModuleVersion = "brume-vdb 1 " __VERSION__;
 
 }  // namespace brume::tool
