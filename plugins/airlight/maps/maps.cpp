@@ -85,6 +85,19 @@ int corners(int size, int cell)
     return (size + cell - 1) / cell + 1;
 }
 
+// That a step may have from a light, so that what the light gives it is smooth enough for one value [rad].
+float step_angle(const brume_plugin_scene &scene, double max_error)
+{
+    return float(maps::fineness_of(max_error).angle *
+                 std::clamp(1.5 * (1 - std::abs(double(scene.medium->asymmetry))), 0.2, 1.0));
+}
+
+// Shadow maps and orders tell pixels and lights apart, and across wide cells little is smooth enough to be summed.
+bool sums_lights(const brume_plugin_scene &scene, const State &state, bool orders, int cell, float angle)
+{
+    return !state.error && !state.shadowed && !orders && float(cell) < widest_summed * angle * scene.camera->focal[0];
+}
+
 ivec2 grid_size(const GridSettings &s)
 {
     return ivec2(s.across * s.columns, (s.slices + s.across) / s.across * s.rows);
@@ -122,8 +135,9 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     offer.suits = p.max_error >= least_error && offer.sizes.fine &&
                   (scene.gaussians ? scene.gaussian_count >= fewest_gaussians : scene.gaussian_count > 0);
     // Orders beyond the first go pixel by pixel.
-    const double lights = scene.light_count,
-                 looked_up = lights * (p.orders == Orders::all && !takes_grid(state, scene) ? 20 : 1),
+    const bool orders = p.orders == Orders::all && !takes_grid(state, scene),
+               summed = sums_lights(scene, state, orders, offer.sizes.cell, step_angle(scene, p.max_error));
+    const double lights = scene.light_count, looked_up = (summed ? 1 : lights) * (orders ? 20 : 1),
                  pixels = double(state.width) * state.height / (p.reduction * p.reduction), slices = offer.sizes.slices,
                  side = fineness.side, of_list = 40 * std::sqrt(1 + 0.1 * scene.gaussian_count),
                  points = double(corners(state.width, offer.sizes.cell)) * corners(state.height, offer.sizes.cell);
@@ -209,8 +223,7 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
     if (brume_status s = upload(services, host, upload_attenuation_frames, 4, m.placed.texels, m.frames))
         return s;
     m.settings.gaussians = int(scene.gaussian_count);
-    m.settings.angle = float(maps::fineness_of(state.parameters.max_error).angle *
-                             std::clamp(1.5 * (1 - std::abs(double(scene.medium->asymmetry))), 0.2, 1.0));
+    m.settings.angle = step_angle(scene, state.parameters.max_error);
     m.maps_pending = m.maps_pending || again;
     m.grid_pending = true;
     m.in_grid = ivec2(0);
@@ -227,11 +240,8 @@ public:
         constants_.grid = maps_.settings;
         constants_.airlight = settings_of(state, *frame.scene);
         constants_.estimate = state.error != nullptr;
-        // Shadow maps and orders tell pixels and lights apart, and across wide cells little is smooth enough to be summed.
         constants_.grid.summed =
-            !state.error && !constants_.airlight.shadowed &&
-            constants_.airlight.orders == brume::maths_float::orders_single &&
-            float(constants_.grid.cell) < widest_summed * constants_.grid.angle * frame.scene->camera->focal[0];
+            sums_lights(*frame.scene, state, gathers_orders(state), constants_.grid.cell, constants_.grid.angle);
     }
 
     int lights_at_once() const { return constants_.grid.summed ? maps_.kept : most_depths; }
