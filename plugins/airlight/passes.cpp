@@ -72,7 +72,7 @@ brume_status create_gather(const brume_services &services, brume_host host, Stat
         return create(services, host, desc, "airlight_gather.comp", pass_text("airlight_gather.comp"),
                       define("TIER", tier_of(state)) + define("SHADOWED", state.shadowed) +
                           define("ORDERS", gathers_orders(state)),
-                      state.parameters.tier == Tier::nodes ? gather_nodes_rows : gather_rows, state.gather);
+                      tier_of(state) == brume::maths_float::airlight_nodes ? gather_nodes_rows : gather_rows, state.gather);
     desc.rows = gather_reference_rows;
     return services.create_pass(host, &desc, &state.gather);
 }
