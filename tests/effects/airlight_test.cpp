@@ -314,6 +314,17 @@ TEST(AirlightThreads, AnyNumberGivesTheSameBits)
     }
 }
 
+// By the same functions, not only by the same formulas.
+TEST(AirlightDefaultTier, IsNodesBitForBitWhereItComesToThem)
+{
+    const NamedScene scene = lit_scenes()[0];
+    const Frame frame = lit_frame(48, 32);
+    auto airlight = [&](const Json &of) {
+        return run(cpu(), of.dump(), frame.color, frame.depth, Options{{}, {"airlight"}}).airlight.data;
+    };
+    EXPECT_EQ(airlight(scene.scene), airlight(in_tier(scene.scene, "nodes")));
+}
+
 #ifdef BRUME_GL
 TEST(AirlightGpuAgainstCpu, EveryTier)
 {
