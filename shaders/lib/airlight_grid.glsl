@@ -97,24 +97,24 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
                     sampler2D attenuation_frames, sampler2D lights
 #define GRID_PASSED slices, grid_density, grid_lights, attenuation, attenuation_frames, lights
 
-// The same of any lights, of whose light the grid has the sum. Where that is not smooth, and in the step that the ray ends in, each
-// light is looked up.
-PURE vec3 lit_by_sums(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, int stride, GRID_IMAGES, int first, int last, vec2 place,
+// The same of any lights, of whose light the grid has the sum, of the whole grid. Where that is not smooth, and in the step that the
+// ray ends in, each light is looked up.
+PURE vec3 lit_by_sums(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, GRID_IMAGES, int first, int last, vec2 place,
                       vec3 direction, float distance)
 {
+    ivec2 size = ivec2(s.columns, s.rows);
     vec3 extinction = medium.scattering + medium.absorption;
     vec3 total = vec3(R(0.0));
     float from = R(0.0);
     vec4 density = vec4(R(0.0));
     float terms = R(0.0);
-    for (int k = 0; k < s.slices; k += stride) {
+    for (int k = 0; k < s.slices; ++k) {
         if (!some(from < distance))
             break;
-        int slice = min(k + stride, s.slices);
-        float next = data_texel(slices, slice).x;
+        float next = data_texel(slices, k + 1).x;
         float to = max(min(next, distance), from);
         float share = (to - from) / (next - from);
-        vec4 next_density = grid_between(grid_density, s, stride, slice, place);
+        vec4 next_density = grid_fetch(grid_density, grid_corner(s, k + 1), size, place);
         float next_terms = density_integral(medium, direction, to);
         float of_terms = max(next_terms - terms, R(0.0));
         vec4 step = max(next_density - density, vec4(R(0.0))) * share;
@@ -123,16 +123,9 @@ PURE vec3 lit_by_sums(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
             vec3 scattered = min(medium.scattering * (vec3(step.y, step.z, step.w) + vec3(of_terms)), vec3(radiance_limit)) *
                              grid_mean_exponential(s, extinction * mass);
             float before = clamp(density.x + terms, R(0.0), density_limit);
-            vec3 tau = optical_depth(medium, before);
-            vec4 given = grid_between(grid_lights, s, stride, k, place);
-            vec3 arriving = exp(vec3(given) - tau);
-            Bool smooth_here = given.w > least_smooth;
-            if (stride > 1 && k + 1 < s.slices) {
-                vec4 second = grid_between(grid_lights, s, stride, k + 1, place);
-                arriving = R(0.5) * (arriving + exp(vec3(second) - tau));
-                smooth_here = smooth_here && second.w > least_smooth;
-            }
-            Bool apart = mass > R(0.0) && (!smooth_here || to < next);
+            vec4 given = grid_fetch(grid_lights, grid_corner(s, k), size, place);
+            vec3 arriving = exp(vec3(given) - optical_depth(medium, before));
+            Bool apart = mass > R(0.0) && (!(given.w > least_smooth) || to < next);
             if (some(apart)) {
                 vec3 sum = vec3(R(0.0));
                 for (int i = first; i < last; ++i) {

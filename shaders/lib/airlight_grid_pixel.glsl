@@ -4,16 +4,6 @@
                             sampler2D environment_table, sampler2D surroundings, SHADOW_MAP_IMAGES
 #define MAPPED_PIXEL_PASSED depth, gaussian_density, GRID_PASSED, environment, environment_table, surroundings, SHADOW_MAP_PASSED
 
-// stride: see lit_by_grid().
-PURE vec3 lit_by_maps(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, IN(AirlightSettings) settings, int stride,
-                      MAPPED_PIXEL_IMAGES, ivec2 light_range, vec2 place, vec3 direction, float distance)
-{
-    if (s.summed == 1)
-        return lit_by_sums(medium, camera, s, stride, GRID_PASSED, light_range.x, light_range.y, place, direction, distance);
-    return lit_by_grid(medium, camera, s, stride, slices, grid_density, grid_lights, lights, MAPPED_PASSED(settings), light_range.x,
-                       light_range.y, place, direction, distance);
-}
-
 // estimate: 1 where the error is wanted.
 PURE Airlight mapped_airlight(int estimate, IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, IN(AirlightSettings) settings,
                               MAPPED_PIXEL_IMAGES, ivec2 pixel, ivec2 light_range)
@@ -23,10 +13,16 @@ PURE Airlight mapped_airlight(int estimate, IN(Medium) medium, IN(Camera) camera
         return Airlight(vec3(R(0.0)), vec3(R(0.0)));
     vec2 place = (vec2(pixel) + R(0.5)) / float(s.cell);
     Airlight a = Airlight(vec3(R(0.0)), vec3(R(0.0)));
-    a.radiance = lit_by_maps(medium, camera, s, settings, 1, MAPPED_PIXEL_PASSED, light_range, place, ray.direction, ray.distance);
+    if (s.summed == 1)
+        a.radiance =
+            lit_by_sums(medium, camera, s, GRID_PASSED, light_range.x, light_range.y, place, ray.direction, ray.distance);
+    else
+        a.radiance = lit_by_grid(medium, camera, s, 1, slices, grid_density, grid_lights, lights, MAPPED_PASSED(settings),
+                                 light_range.x, light_range.y, place, ray.direction, ray.distance);
+    // Not of sums.
     if (estimate == 1) {
-        vec3 half_grid =
-            lit_by_maps(medium, camera, s, settings, 2, MAPPED_PIXEL_PASSED, light_range, place, ray.direction, ray.distance);
+        vec3 half_grid = lit_by_grid(medium, camera, s, 2, slices, grid_density, grid_lights, lights, MAPPED_PASSED(settings),
+                                     light_range.x, light_range.y, place, ray.direction, ray.distance);
         a.error = R(0.8) * abs(half_grid - a.radiance) + s.doubt * a.radiance;
     }
     if (settings.environment_order > 0)
