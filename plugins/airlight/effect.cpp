@@ -321,6 +321,12 @@ uint32_t makes_with(const double *values, uint32_t index)
     return made[index] != std::string_view("all_scattering") || (p.orders == Orders::all && !is_published(p.tier));
 }
 
+// What lies between the camera and each Gaussian is what tier fogshop asks.
+uint32_t uses_with(const double *values, uint32_t index)
+{
+    return index != product_camera_gaussians || read_parameters(values).tier == Tier::fogshop;
+}
+
 }  // namespace
 }  // namespace airlight
 
@@ -349,6 +355,7 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         [](void *state) { delete static_cast<State *>(state); },
         makes_with,
         offer,
-        settle};
+        settle,
+        uses_with};
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

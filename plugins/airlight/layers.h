@@ -25,7 +25,8 @@ constexpr brume_layer_info layer_table[] = {
 static_assert(std::size(layer_table) == layer_count);
 
 constexpr const char *made[] = {"attenuated_radiance", "single_scattering", "all_scattering"};
-constexpr const char *used[] = {"density", "density_rgb", "gaussian_density", "gaussians", "lights", "light_shadows"};
+constexpr const char *used[] = {"density", "density_rgb",   "gaussian_density", "gaussians",
+                                "lights",  "light_shadows", "light_gaussians",  "camera_gaussians"};
 static_assert(std::size(used) == product_count);
 
 }  // namespace airlight

@@ -120,9 +120,9 @@ brume_status Frame::blobs()
     brume_plugin_image images[slot_count] = {};
     images[gaussians] = product(product_gaussians);
     images[lights] = product(product_lights);
-    images[cells] = state_.cells;
-    images[cell_gaussians] = state_.cell_gaussians;
-    images[shadow_origins] = state_.origins;
+    images[cells] = product(product_light_gaussians, 1);
+    images[cell_gaussians] = product(product_light_gaussians, 2);
+    images[shadow_origins] = product(product_light_gaussians);
     images[density] = state_.blob_density;
     return services_.run(host_, state_.blobs, images, &constants_, BRUME_DATA_WIDTH,
                          (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, nullptr);
@@ -151,9 +151,9 @@ brume_status Frame::gather(const Constants &constants, brume_plugin_image to, br
     images[gaussians] = product(product_gaussians);
     images[lights] = product(product_lights);
     images[tile_gaussians] = product(product_gaussians, 2);
-    images[cells] = state_.cells;
-    images[cell_gaussians] = state_.cell_gaussians;
-    images[shadow_origins] = state_.origins;
+    images[cells] = product(product_light_gaussians, 1);
+    images[cell_gaussians] = product(product_light_gaussians, 2);
+    images[shadow_origins] = product(product_light_gaussians);
     images[blob_density] = state_.blob_density;
     images[sun_table] = state_.sun_table;
     images[surroundings] = state_.surroundings;

@@ -6,7 +6,6 @@
 #include "maps/maps.h"
 #include "parameters.h"
 #include "scattered/scattered.h"
-#include "shadow_lists.h"
 
 namespace airlight {
 
@@ -27,14 +26,13 @@ enum Product {
     product_gaussians,
     product_lights,
     product_light_shadows,
+    product_light_gaussians,
+    product_camera_gaussians,
     product_count
 };
 
 // Of the data images.
 enum Upload : uint32_t {
-    upload_origins,
-    upload_cells,
-    upload_cell_gaussians,
     upload_blob_density,
     upload_sun_table,
     upload_environment,
@@ -65,11 +63,9 @@ struct State {
 
     // Refreshed when something moved.
     brume_plugin_image environment = nullptr;  // its coefficients
-    brume_plugin_image origins = nullptr, cells = nullptr, cell_gaussians = nullptr;
     brume_plugin_image blob_density = nullptr;
     bool blobs_pending = false;  // its pass has to run
-    ShadowLists lists;
-    std::vector<float> values;  // on their way to an image
+    std::vector<float> values;   // on their way to an image
     uint64_t revision = 0;
     brume_plugin_camera camera{};
     double position[3] = {};
@@ -88,7 +84,7 @@ struct State {
 // At planning: the tables that the tier reads.
 brume_status plan_tables(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state);
 
-// Which Gaussians shadow what, and the environment, made again when something moved.
+// What follows the scene, made again when something moved.
 brume_status refresh(const brume_services &services, brume_host host, const brume_plugin_scene &scene, State &state);
 
 // As brume_effect.

@@ -37,6 +37,7 @@ struct Effect {
     decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it, as the next
     decltype(brume_effect::makes_with) makes_with = nullptr;
     decltype(brume_effect::settle) settle = nullptr;
+    decltype(brume_effect::uses_with) uses_with = nullptr;
     std::shared_ptr<void> library;  // keeps the code loaded
 };
 

@@ -246,6 +246,7 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.offer = table.offer;
     effect.makes_with = table.makes_with;
     effect.settle = table.settle;
+    effect.uses_with = table.uses_with;
 }
 
 std::shared_ptr<void> open_library(const std::string &file)

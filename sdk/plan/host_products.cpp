@@ -57,8 +57,8 @@ void run(brume_host_t &host, brume_pass pass, const brume_plugin_image *images, 
 
 bool HostProducts::makes(std::string_view product)
 {
-    for (const char *name :
-         {"density", "density_rgb", "gaussian_density", "gaussians", "lights", "light_shadows", "visible_lights"})
+    for (const char *name : {"density", "density_rgb", "gaussian_density", "gaussians", "light_gaussians",
+                             "camera_gaussians", "lights", "light_shadows", "visible_lights"})
         if (product == name)
             return true;
     return false;
@@ -72,6 +72,8 @@ void HostProducts::plan(brume_host_t &host, const std::vector<std::string> &uses
     height_ = height;
     lights_ = used("lights");
     visible_lights_ = used("visible_lights");
+    camera_gaussians_ = used("camera_gaussians");
+    light_gaussians_ = camera_gaussians_ || used("light_gaussians");
     if (used("light_shadows"))
         shadow_maps_.plan(host, scene, layers);
     layer_ = layers.has_input("optical_depth") ? 1 : layers.has_input("transmittance") ? 2 : 0;
@@ -129,6 +131,18 @@ void HostProducts::upload_gaussians(brume_host_t &host, const brume_plugin_scene
                         int(longest_list())));
 }
 
+// moved: not the camera alone.
+void HostProducts::upload_light_gaussians(brume_host_t &host, const brume_plugin_scene &scene, bool moved)
+{
+    directions_.refresh(scene, moved, camera_gaussians_);
+    const brume_plugin_image images[] = {
+        host.upload(upload_of_shadow_origins, 4, directions_.origins.data(), directions_.origins.size() / 4),
+        host.upload(upload_of_cells, 4, directions_.cells.data(), directions_.cells.size() / 4),
+        host.upload(upload_of_cell_gaussians, 1, directions_.cell_gaussians.data(), directions_.cell_gaussians.size())};
+    for (const char *name : {"light_gaussians", "camera_gaussians"})
+        host.publish(name, images, 3, scene.light_count, uploads_);
+}
+
 void HostProducts::upload_lights(brume_host_t &host, const brume_plugin_scene &scene)
 {
     std::vector<float> texels(size_t(scene.light_count) * 16);
@@ -158,6 +172,7 @@ void HostProducts::upload(brume_host_t &host, const brume_plugin_scene &scene)
                        std::memcmp(position_, scene.position, sizeof position_) != 0;
     if (!moved)
         return;
+    const bool scene_moved = !uploaded_ || revision_ != scene.revision;
     uploaded_ = false;  // should one of these throw
     ++uploads_;
     if (lights_)
@@ -166,6 +181,8 @@ void HostProducts::upload(brume_host_t &host, const brume_plugin_scene &scene)
         upload_visible_lights(host, scene);
     if (gaussian_density_)
         upload_gaussians(host, scene);
+    if (light_gaussians_)
+        upload_light_gaussians(host, scene, scene_moved);
     revision_ = scene.revision;
     camera_ = *scene.camera;
     std::memcpy(position_, scene.position, sizeof position_);

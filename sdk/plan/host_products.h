@@ -4,6 +4,7 @@
 #include <brume/brume_plugin.h>
 
 #include "gaussians/gaussian_tiles.h"
+#include "gaussians/light_gaussians.h"
 #include "plan/layers.h"
 #include "plan/products.h"
 #include "plan/shadow_maps.h"
@@ -17,7 +18,10 @@ enum HostUpload : uint32_t {
     upload_of_tile_gaussians,
     upload_of_lights,
     upload_of_light_shadows,
-    upload_of_visible_lights
+    upload_of_visible_lights,
+    upload_of_shadow_origins,
+    upload_of_cells,
+    upload_of_cell_gaussians
 };
 
 // What the host makes of the scene for effects, as brume_plugin_product lists it: made only where something uses it. Its
@@ -35,17 +39,19 @@ public:
 private:
     void upload(brume_host_t &host, const brume_plugin_scene &scene);
     void upload_gaussians(brume_host_t &host, const brume_plugin_scene &scene);
+    void upload_light_gaussians(brume_host_t &host, const brume_plugin_scene &scene, bool moved);
     void upload_lights(brume_host_t &host, const brume_plugin_scene &scene);
     void upload_visible_lights(brume_host_t &host, const brume_plugin_scene &scene);
     float longest_list() const;
 
     int32_t width_ = 0, height_ = 0;
-    bool lights_ = false, visible_lights_ = false;
+    bool lights_ = false, visible_lights_ = false, light_gaussians_ = false, camera_gaussians_ = false;
     int layer_ = 0;  // what the caller gives in place of the scene's density: 0 nothing, 1 optical depth, 2 transmittance
     brume_plugin_image density_ = nullptr, density_rgb_ = nullptr, gaussian_density_ = nullptr;  // null: not made
     brume_pass density_pass_ = nullptr, gaussian_pass_ = nullptr;
     brume_plugin_image gaussians_ = nullptr, tiles_ = nullptr, tile_gaussians_ = nullptr;
     GaussianTiles lists_;
+    LightGaussians directions_;
     ShadowMaps shadow_maps_;
     std::vector<float> spheres_;
 

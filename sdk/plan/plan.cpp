@@ -157,7 +157,9 @@ void brume_host_t::plan_host_products(const brume_plugin_scene &scene)
 {
     std::vector<std::string> uses;
     for (const PlannedEffect *planned : running_)
-        uses.insert(uses.end(), planned->effect->uses.begin(), planned->effect->uses.end());
+        for (const std::string &product : planned->effect->uses)
+            if (uses_product(*planned, product))
+                uses.push_back(product);
     const auto first = ptrdiff_t(entries_.size());
     host_products_.plan(*this, uses, scene, layers_, format_.width, format_.height);
     std::rotate(entries_.begin(), entries_.begin() + first, entries_.end());

@@ -122,6 +122,7 @@ private:
     void destroy_states() noexcept;
     double share_before(int entry) const;  // of the frame's predicted time
     bool is_made_by(const brume::PlannedEffect &planned, std::string_view product) const;
+    bool uses_product(const brume::PlannedEffect &planned, std::string_view product) const;
 
     int64_t run_effects(const brume_frame &frame);
     void run_effect(brume::PlannedEffect &planned, brume_plugin_frame &seen);

@@ -104,17 +104,34 @@ void brume_host_t::set_parameters()
     }
 }
 
+namespace {
+
+// What an effect says of number `index` of the products that its table names.
+bool with(decltype(brume_effect::makes_with) of, const PlannedEffect &planned, ptrdiff_t index, const char *what)
+{
+    if (!of)
+        return true;
+    try {
+        return of(planned.settled.data(), uint32_t(index)) != 0;
+    } catch (...) {
+        throw Error(BRUME_ERROR_PLUGIN, planned.effect->name + ": threw in " + what);
+    }
+}
+
+}  // namespace
+
 bool brume_host_t::is_made_by(const PlannedEffect &planned, std::string_view product) const
 {
-    const Effect &effect = *planned.effect;
-    const auto found = std::find(effect.makes.begin(), effect.makes.end(), product);
-    if (found == effect.makes.end() || !effect.makes_with)
-        return found != effect.makes.end();
-    try {
-        return effect.makes_with(planned.settled.data(), uint32_t(found - effect.makes.begin())) != 0;
-    } catch (...) {
-        throw Error(BRUME_ERROR_PLUGIN, effect.name + ": threw in makes_with");
-    }
+    const auto &makes = planned.effect->makes;
+    const auto found = std::find(makes.begin(), makes.end(), product);
+    return found != makes.end() && with(planned.effect->makes_with, planned, found - makes.begin(), "makes_with");
+}
+
+bool brume_host_t::uses_product(const PlannedEffect &planned, std::string_view product) const
+{
+    const auto &uses = planned.effect->uses;
+    const auto found = std::find(uses.begin(), uses.end(), product);
+    return found != uses.end() && with(planned.effect->uses_with, planned, found - uses.begin(), "uses_with");
 }
 
 // An effect that the scene names must run; another one is left out.

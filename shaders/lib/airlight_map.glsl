@@ -49,6 +49,10 @@ PURE AttenuationRay attenuation_ray(IN(Camera) camera, IN(AttenuationFrame) fram
         ray.origin = u * ((square.x - frame.u.w) / across) + v * ((square.y - frame.v.w) / along);
         ray.start = -far_away;
         ray.spacing = R(1.0) / (float(side - 1) * sqrt(sqrt(across * along)));
+        u = vec3(data_texel(shadow_origins, 3 * (1 + index)));
+        v = vec3(data_texel(shadow_origins, 3 * (1 + index) + 1));
+        square = vec2(dot(u, ray.origin) + data_texel(shadow_origins, 3 * (1 + index)).w,
+                      dot(v, ray.origin) + data_texel(shadow_origins, 3 * (1 + index) + 1).w);
     } else {
         vec3 u = vec3(frame.u);
         vec3 v = vec3(frame.v);

@@ -3,8 +3,8 @@
 //
 //   attenuation         one channel, int rho dt [m at unit density]: of light l in direction (x, y) from it to node k, the texel
 //                       (k side + x, l side + y). Directions lie on the corners of a grid, so that the map's edges join.
-//   attenuation_frames  3 texels per light. Of directional lights 0 and 1 are the map's axes across the light, as texels 0 and 1 of
-//                       shadow_origins; of others the map is a window of the octahedral square about an axis: xyz the directions in
+//   attenuation_frames  3 texels per light. Of directional lights 0 and 1 are the map's axes across the light: its place, 0 to 1, is
+//                       dot(xyz, point) + w; of others the map is a window of the octahedral square about an axis: xyz the directions in
 //                       which the square's x and y grow in its middle, w where the window begins in it. 2  x the distance of node 0
 //                       and y that of the last, of directional lights along them; zw the window's size
 //
@@ -80,6 +80,6 @@ PURE float attenuation_density(IN(AttenuationFrame) frame, sampler2D attenuation
     float to = min(R(0.5) * (step + step_behind), R(3.0) * min(step, step_behind));
     float integral = nearer + w * (from + w * (R(3.0) * step - R(2.0) * from - to + w * (from + to - R(2.0) * step)));
     if (light.type == light_directional)
-        return choose(place.x == clamp(place.x, R(0.0), R(1.0)) && place.y == clamp(place.y, R(0.0), R(1.0)), integral, R(0.0));
+        return integral;
     return integral / max(place.z, R(1e-6));
 }

@@ -1,5 +1,5 @@
-// Effects that misbehave when they end or settle, and one that counts overlapping calls: one library per case, named by
-// TEST_CASE.
+// Effects that misbehave when they end, settle or choose, and one that counts overlapping calls: one library per case, named
+// by TEST_CASE.
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -54,6 +54,15 @@ void destroy(void *)
     Alone now;
 }
 
+constexpr const char *used[] = {"density"};
+
+uint32_t uses_with(const double *, uint32_t)
+{
+    if (test_case == "throws_choosing")
+        throw std::runtime_error("thrown in uses_with");
+    return test_case != "uses_nothing";
+}
+
 const brume_effect effect{
     .struct_size = sizeof(brume_effect),
     .abi = BRUME_PLUGIN_ABI,
@@ -65,18 +74,19 @@ const brume_effect effect{
     .parameter_count = 0,
     .layer_count = 0,
     .make_count = 0,
-    .use_count = 0,
+    .use_count = 1,
     .reserved = 0,
     .parameters = nullptr,
     .layers = nullptr,
     .makes = nullptr,
-    .uses = nullptr,
+    .uses = used,
     .plan = plan,
     .execute = execute,
     .destroy = destroy,
     .makes_with = nullptr,
     .offer = nullptr,
     .settle = settle,
+    .uses_with = uses_with,
 };
 
 }  // namespace

@@ -102,7 +102,7 @@ FIELD(brume_services, made, 48);
 FIELD(brume_services, run, 56);
 FIELD(brume_services, upload, 64);
 FIELD(brume_services, publish, 72);
-SIZE(brume_effect, 136);
+SIZE(brume_effect, 144);
 FIELD(brume_effect, name, 8);
 FIELD(brume_effect, order, 24);
 FIELD(brume_effect, layer_count, 40);
@@ -114,6 +114,7 @@ FIELD(brume_effect, destroy, 104);
 FIELD(brume_effect, makes_with, 112);
 FIELD(brume_effect, offer, 120);
 FIELD(brume_effect, settle, 128);
+FIELD(brume_effect, uses_with, 136);
 
 #endif
 

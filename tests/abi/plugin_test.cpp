@@ -85,6 +85,8 @@ TEST_F(Strangers, BadOnesFailWithAMessage)
         {"throws_int_destroying", BRUME_OK, ""},
         {"throws_destroying_and_planning", BRUME_ERROR_PLUGIN, "thrown in plan"},
         {"throws_settling", BRUME_ERROR_PLUGIN, "threw in settle: thrown in settle"},
+        {"throws_choosing", BRUME_ERROR_PLUGIN, "threw in uses_with"},
+        {"uses_nothing", BRUME_OK, ""},
     };
     Context both = context_with(BRUME_ODD_EFFECT_DIR);
     for (const Case &c : cases) {
@@ -103,6 +105,29 @@ TEST_F(Strangers, BadOnesFailWithAMessage)
         }
         std::swap(context, odd ? both : context);
     }
+}
+
+// Neither odd effect reads it, but one names it among what it may use.
+TEST_F(Strangers, ProductsThatNobodyUsesAreNotMade)
+{
+    context = context_with(BRUME_ODD_EFFECT_DIR);
+    auto makes_density = [&](const std::string &effect) {
+        Scene scene =
+            make_scene(context, R"({"brume": 1, "medium": {"visibility": 10}, "effects": {")" + effect + R"(": {}}})");
+        const brume_format format = ray_format(16, 12);
+        Plan plan = make_plan(context, scene, format);
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        EXPECT_EQ(brume_plan_get_info(plan.get(), &info), BRUME_OK);
+        for (uint32_t i = 0; i < info.entry_count; ++i) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            EXPECT_EQ(brume_plan_get_entry(plan.get(), i, &entry), BRUME_OK);
+            if (std::string_view(entry.name) == "density")
+                return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(makes_density("not_thread_safe"));
+    EXPECT_FALSE(makes_density("uses_nothing"));
 }
 
 TEST_F(Strangers, RefusalsSayWhy)

@@ -4,7 +4,7 @@
 
 #include "lit_scene.h"
 #include "scene_maths.hpp"
-#include "shadow_lists.h"
+#include "gaussians/light_gaussians.h"
 
 using namespace fog;
 namespace f32 = brume::maths_float;
@@ -277,19 +277,19 @@ void hold_density(const brume_plugin_scene &scene, int light_index, const brume:
 }  // namespace
 
 // What lies between a point and a light, or the camera, as shaders look it up, in double and in float.
-TEST(ShadowLists, MissNoGaussian)
+TEST(LightGaussians, MissNoGaussian)
 {
     using namespace brume::maths_double;
     size_t listed_pairs = 0, pairs = 0;
     for (int count : {0, 1, 2, 40, 900, 6000})
         for (double extent : {1.0, 3000.0}) {
             World world(unsigned(count) + 1, count, extent);
-            airlight::ShadowLists lists;
+            brume::LightGaussians lists;
             for (int step = 0; step < 3; ++step) {
                 if (step)
                     world.move(world.somewhere(extent), world.somewhere(1), world.somewhere(1));
                 const brume_plugin_scene &scene = world.scene();
-                ASSERT_TRUE(lists.refresh(scene, step == 0, true));
+                lists.refresh(scene, step == 0, true);
                 const Camera camera = camera_of(scene);
                 const Data gaussians = gaussians_of(scene), lights = lights_of(scene),
                            cells(lists.cells.data(), lists.cells.size() / 4, 4),

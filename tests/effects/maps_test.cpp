@@ -104,6 +104,11 @@ Json on_both_sides()
     return scene_of(all, Json::array({point_light({20, 10, 20}, 20000)}));
 }
 
+Json sun()
+{
+    return {{"type", "directional"}, {"direction", {0.3, -1, 0.2}}, {"intensity", 3}, {"distance", 5}};
+}
+
 std::vector<NamedScene> clouds()
 {
     std::vector<NamedScene> all;
@@ -118,8 +123,7 @@ std::vector<NamedScene> clouds()
     hazy.push_back(
         {{"type", "exponential"}, {"value", 0.05}, {"falloff", 0.5}, {"direction", {0, 1, 0}}, {"origin", {0, -2, 0}}});
     all.push_back({"puffs in haze", scene_of(hazy, lamps(2)), {}});
-    const Json sun{{"type", "directional"}, {"direction", {0.3, -1, 0.2}}, {"intensity", 3}, {"distance", 5}};
-    all.push_back({"sun", scene_of(cloud(300, 5), Json::array({sun})), {}});
+    all.push_back({"sun", scene_of(cloud(300, 5), Json::array({sun()})), {}});
     const Json spot{{"type", "spot"}, {"position", {-3, 4, -7}}, {"direction", {0.5, -0.8, -0.2}},
                     {"angle", 40},    {"penumbra", 0.4},         {"intensity", 60}};
     all.push_back({"spot", scene_of(cloud(300, 6), Json::array({spot})), {}});
@@ -175,6 +179,25 @@ TEST(AirlightMaps, AgreeWithNodesAndBoundTheirError)
 }
 
 // Where the grid has sums of lights, which an error layer does without.
+// A cloud far aside makes the box about all Gaussians thirty times as wide, which is nothing to the light on those in view.
+TEST(AirlightMaps, OfSunsAreFittedToWhatIsSeen)
+{
+    Json both = cloud(200, 15);
+    for (Json g : cloud(50, 16)) {
+        const Vector c = g["center"];
+        g["center"] = {c[0] + 200, c[1], c[2]};
+        both.push_back(g);
+    }
+    const Frame frame = lit_frame(96, 64);
+    Context context(BRUME_BACKEND_CPU);
+    const Errors e =
+        errors(airlight_of(context, with(scene_of(both, Json::array({sun()})), "tier", "maps"), frame),
+               airlight_of(context, with(scene_of(cloud(200, 15), Json::array({sun()})), "tier", "maps"), frame));
+    report("a cloud out of view", e);
+    EXPECT_LT(e.median, 1e-3);
+    EXPECT_LT(e.p95, 2e-2);
+}
+
 TEST(AirlightMaps, SumsAgreeWithEachLight)
 {
     const Frame frame = lit_frame(320, 200);

@@ -240,7 +240,7 @@ TEST(Continuity, Gaussians)
     hold("Gaussians", all);
 }
 
-TEST(Continuity, ShadowListsLeaveOutWhatDoesNotShow)
+TEST(Continuity, LightGaussiansLeaveOutWhatDoesNotShow)
 {
     auto shadow = [](f64::vec3 center) {
         return [=](double x) {

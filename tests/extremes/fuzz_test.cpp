@@ -16,6 +16,16 @@ constexpr int texts = 100000;
 constexpr int planned_share = 2;   // of the texts that are scenes, one in so many
 constexpr int executed_share = 3;  // of the plans
 
+struct Size {
+    int width, height;
+};
+
+// References integrate for each pixel.
+Size size_of(const std::string &text)
+{
+    return text.find("\"reference\"") == std::string::npos ? Size{8, 6} : Size{3, 2};
+}
+
 struct Destroy {
     void operator()(brume_scene scene) const { brume_scene_destroy(scene); }
     void operator()(brume_plan plan) const { brume_plan_destroy(plan); }
@@ -69,8 +79,8 @@ protected:
     Plan plan(const Scene &scene, const std::string &text)
     {
         brume_format format = BRUME_FORMAT_INIT;
-        format.width = 8;
-        format.height = 6;
+        format.width = size_of(text).width;
+        format.height = size_of(text).height;
         format.depth_kind = uint32_t(random_.below(3));
         format.sky = uint32_t(random_.below(3));
         format.sky_distance = random_.magnitude(-3, 10);
@@ -83,7 +93,8 @@ protected:
 
     bool execute(const Plan &plan, const std::string &text)
     {
-        Picture color(8, 6, 4), depth(8, 6, 1), output(8, 6, 4);
+        const auto [width, height] = size_of(text);
+        Picture color(width, height, 4), depth(width, height, 1), output(width, height, 4);
         for (float &v : color.data)
             v = float(random_.magnitude(-45, 38)) * (random_.chance(0.1) ? -1.0f : 1.0f);
         for (float &v : depth.data)

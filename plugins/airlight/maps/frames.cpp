@@ -22,6 +22,9 @@ constexpr double around_cone = 1.1;
 
 constexpr int rim_points = 8;
 
+// Of what a directional light's map has to cover along a side, at least so many.
+constexpr double steps_a_side = 8;
+
 vec3 three(const float (&v)[3])
 {
     return {v[0], v[1], v[2]};
@@ -146,23 +149,43 @@ struct Fit {
     Frame around(const brume_plugin_light &light) const;
 };
 
+// Its sides lie on a lattice that starts where all Gaussians do, so that maps outlive small moves of the camera and are the
+// same whatever was seen before.
 Frame Fit::across(const brume_plugin_light &light) const
 {
     const Medium medium = medium_of(scene);
-    const vec3 direction = three(light.direction);
-    double first = 1e30, near = 1e30, far = -1e30;
+    const vec3 direction = three(light.direction), x = in_camera(*scene.camera, {1, 0, 0}),
+               y = in_camera(*scene.camera, {0, 1, 0}),
+               u = glm::normalize(cross(direction, std::abs(dot(direction, x)) < 0.6 ? x : y)), v = cross(direction, u);
+    vec3 low(1e30), high(-1e30), lit_low(1e30), lit_high(-1e30);
     for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
         const Gaussian g = gaussian_of(scene.gaussians[i]);
-        const double reach = gaussian_reach(medium, g), at = dot(direction, g.center);
-        first = std::min(first, at - reach);
+        const double reach = gaussian_reach(medium, g);
+        const vec3 at(dot(u, g.center), dot(v, g.center), dot(direction, g.center));
+        low = min(low, at - reach);
+        high = max(high, at + reach);
         if (is_lit(g.center, reach)) {
-            near = std::min(near, at - reach);
-            far = std::max(far, at + reach);
+            lit_low = min(lit_low, at - reach);
+            lit_high = max(lit_high, at + reach);
         }
     }
     Frame frame;
-    if (set_range(frame, near, far))
-        frame.after = near - first;
+    if (!(lit_low.z < lit_high.z))
+        return frame;
+    vec3 size;
+    for (int i = 0; i < 3; ++i) {
+        const double step = std::exp2(std::floor(std::log2((lit_high[i] - lit_low[i]) / steps_a_side))),
+                     first = std::floor((lit_low[i] - low[i]) / step);
+        frame.after[i] = first * step;
+        size[i] = (std::ceil((lit_high[i] - low[i]) / step) - first) * step;
+    }
+    frame.u = in_world(*scene.camera, u);
+    frame.v = in_world(*scene.camera, v);
+    for (int i = 0; i < 2; ++i) {
+        frame.low[i] = low[i] + frame.after[i];
+        frame.size[i] = size[i];
+    }
+    set_range(frame, low.z + frame.after[2], low.z + frame.after[2] + size.z);
     return frame;
 }
 
@@ -217,28 +240,29 @@ Frame Fit::around(const brume_plugin_light &light) const
 }
 
 // But for rounding: positions are from the camera.
-bool alike(const Frame &a, const Frame &b)
+bool alike(const Frame &a, const Frame &b, bool parallel)
 {
     bool same = true;
     auto compare = [&](double x, double y, double scale) { same = same && std::abs(x - y) <= 1e-3 * scale; };
-    for (size_t i = 0; i < 3; ++i) {
+    for (size_t i = 0; i < 3 && !parallel; ++i) {
         compare(a.u[i], b.u[i], std::min(a.size[0], a.size[1]));
         compare(a.v[i], b.v[i], std::min(a.size[0], a.size[1]));
     }
-    for (int i = 0; i < 2; ++i) {
-        compare(a.low[i], b.low[i], a.size[i]);
-        compare(a.size[i], b.size[i], a.size[i]);
-    }
     const double depth = double(a.far) - double(a.near);
     compare(double(b.far) - double(b.near), depth, depth);
-    compare(a.after, b.after, depth);
+    compare(a.after[2], b.after[2], depth);
+    for (int i = 0; i < 2; ++i) {
+        if (!parallel)
+            compare(a.low[i], b.low[i], a.size[i]);
+        compare(a.after[i], b.after[i], a.size[i]);
+        compare(a.size[i], b.size[i], a.size[i]);
+    }
     return same;
 }
 
 }  // namespace
 
-bool Frames::place(const brume_plugin_scene &scene, const ShadowLists &lists, int width, int height, bool everywhere,
-                   bool moved)
+bool Frames::place(const brume_plugin_scene &scene, int width, int height, bool everywhere, bool moved)
 {
     frames_.resize(scene.light_count);
     texels.resize(size_t(scene.light_count) * 12);
@@ -249,20 +273,18 @@ bool Frames::place(const brume_plugin_scene &scene, const ShadowLists &lists, in
         const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
         const Frame fitted = parallel ? fit.across(light) : fit.around(light);
         Frame &frame = frames_[l];
-        if (moved || !alike(frame, fitted)) {
+        const bool stays = !moved && alike(frame, fitted, parallel);
+        again = again || !stays;
+        // A box is from the camera.
+        if (parallel || !stays)
             frame = fitted;
-            again = true;
-        } else if (parallel) {
-            frame.near = fitted.near;
-            frame.far = fitted.far;
-        }
         float *texel = &texels[12 * l];
-        std::copy_n(&lists.origins[12 * (1 + l)], 8, texel);
-        for (int axis = 0; axis < 2 && !parallel; ++axis) {
+        for (int axis = 0; axis < 2; ++axis) {
             const vec3 a = in_camera(*scene.camera, axis == 0 ? frame.u : frame.v);
+            const double size = parallel ? frame.size[axis] : 1;
             for (int i = 0; i < 3; ++i)
-                texel[4 * axis + i] = float(a[i]);
-            texel[4 * axis + 3] = float(frame.low[axis]);
+                texel[4 * axis + i] = float(a[i] / size);
+            texel[4 * axis + 3] = float(parallel ? -frame.low[axis] / size : frame.low[axis]);
         }
         texel[8] = frame.near;
         texel[9] = frame.far;

@@ -219,7 +219,7 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
         return s;
     if (scene.light_count == 0)
         return BRUME_OK;
-    const bool again = m.placed.place(scene, state.lists, state.width, state.height, gathers_orders(state), moved);
+    const bool again = m.placed.place(scene, state.width, state.height, gathers_orders(state), moved);
     if (brume_status s = upload(services, host, upload_attenuation_frames, 4, m.placed.texels, m.frames))
         return s;
     m.settings.gaussians = int(scene.gaussian_count);
@@ -274,9 +274,9 @@ brume_status Run::maps_of(int first, int last)
     constants.grid.mapped = keeps() ? 0 : first;
     brume_plugin_image images[slot_count] = {};
     images[gaussians] = product(product_gaussians);
-    images[cells] = state_.cells;
-    images[cell_gaussians] = state_.cell_gaussians;
-    images[shadow_origins] = state_.origins;
+    images[cells] = product(product_light_gaussians, 1);
+    images[cell_gaussians] = product(product_light_gaussians, 2);
+    images[shadow_origins] = product(product_light_gaussians);
     images[frames] = maps_.frames;
     images[maps::attenuation::lights] = product(product_lights);
     images[result] = maps_.attenuation;

@@ -50,7 +50,7 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state);
 brume_status plan_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene,
                        const MapsOffer &offer, State &state);
 
-// Of a frame whose lights, Gaussians or camera moved, after the lists of shadow_lists.h. moved: not the camera alone.
+// Of a frame whose lights, Gaussians or camera moved. moved: not the camera alone.
 brume_status refresh_maps(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,
                           State &state);
 

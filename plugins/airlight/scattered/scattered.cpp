@@ -170,9 +170,9 @@ brume_status add_rescattered(const brume_services &services, brume_host host, co
         images[lights] = product(product_lights);
         images[surroundings] = state.surroundings;
         images[gaussians] = product(product_gaussians);
-        images[scattered::make::cells] = state.cells;
-        images[cell_gaussians] = state.cell_gaussians;
-        images[shadow_origins] = state.origins;
+        images[scattered::make::cells] = product(product_light_gaussians, 1);
+        images[cell_gaussians] = product(product_light_gaussians, 2);
+        images[shadow_origins] = product(product_light_gaussians);
         images[result] = of.grid;
         const ivec2 size = grid_size(of.settings);
         if (brume_status s = services.run(host, of.make, images, &constants, size.x, size.y, nullptr))

@@ -156,6 +156,9 @@ typedef struct brume_plugin_layer {
    gaussians         [0] data: 2 texels each, as brume_plugin_gaussian. [1] data: per tile of BRUME_TILE_SIZE squared pixels, row
                      by row: x the first and y the number of its entries in [2]. [2] data, one channel: indices of the
                      Gaussians that matter in the tile, by distance. count: of Gaussians
+   light_gaussians   which Gaussians lie between a light and a point, by the light's direction, as shaders/lib/shadow.glsl reads
+                     it: data images [0] shadow_origins, [1] cells, [2] cell_gaussians. count: of lights
+   camera_gaussians  the same images; they list what lies between the camera and a point then, too
    lights            data: 4 texels each, as brume_plugin_light. count: of lights
    light_shadows     only where some light has a shadow map: [0] data: 5 texels each: shadow_rows, then shadow_kind,
                      shadow_extent, 1 where distances are along rays, 0, then x, y, width and height of the map's rectangle in [1].
@@ -391,6 +394,10 @@ typedef struct brume_effect {
      plans; plan and makes_with then get these. Of the services only made() and fail() may be called, and made() takes it that all
      effects run. */
   brume_status (*settle)(const brume_services *services, brume_host host, const brume_plugin_request *request, double *parameters);
+
+  /* NULL: uses all that `uses` names; else whether (1 or 0) it uses number `index` of them with these parameters, those that settle
+     left. What no running effect uses is not made. */
+  uint32_t (*uses_with)(const double *parameters, uint32_t index);
 } brume_effect;
 
 typedef const brume_effect *(*brume_plugin_effect_function)(uint32_t host_abi);

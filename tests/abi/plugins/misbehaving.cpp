@@ -82,6 +82,8 @@ const brume_effect effect{
     .destroy = destroy,
     .makes_with = nullptr,
     .offer = nullptr,
+    .settle = nullptr,
+    .uses_with = nullptr,
 };
 
 }  // namespace

@@ -63,6 +63,8 @@ Table table{{
     .destroy = destroy,
     .makes_with = nullptr,
     .offer = nullptr,
+    .settle = nullptr,
+    .uses_with = nullptr,
 }};
 
 void make_choice(const char *choices, double default_number)

@@ -1,7 +1,6 @@
-// The data images of shaders/lib/shadow.glsl and environment.glsl that follow the scene, made again when something moved.
+// The data images that follow the scene, made again when something moved.
 #include <algorithm>
 #include <cstring>
-#include <string>
 
 #include "state.h"
 #include "uploads.h"
@@ -14,21 +13,6 @@ brume_status refresh_environment(const brume_services &services, brume_host host
 {
     return upload(services, host, upload_environment, 4, brume::maths_float::environment_of(scene).values,
                   state.environment);
-}
-
-brume_status refresh_lists(const brume_services &services, brume_host host, const brume_plugin_scene &scene, bool moved,
-                           State &state)
-{
-    if (!state.lists.refresh(scene, moved, state.parameters.tier == Tier::fogshop))
-        return services.fail(host, BRUME_ERROR_UNSUPPORTED,
-                             ("medium.density: " + std::to_string(scene.gaussian_count) +
-                              " Gaussians shadow too much of each other; expected fewer or smaller ones")
-                                 .c_str());
-    if (brume_status s = upload(services, host, upload_origins, 4, state.lists.origins, state.origins))
-        return s;
-    if (brume_status s = upload(services, host, upload_cells, 4, state.lists.cells, state.cells))
-        return s;
-    return upload(services, host, upload_cell_gaussians, 1, state.lists.cell_gaussians, state.cell_gaussians);
 }
 
 }  // namespace
@@ -44,8 +28,6 @@ brume_status refresh(const brume_services &services, brume_host host, const brum
     if (moved && state.environment_order > 0)
         if (brume_status s = refresh_environment(services, host, scene, state))
             return s;
-    if (brume_status s = refresh_lists(services, host, scene, moved, state))
-        return s;
     if (state.maps.used)
         if (brume_status s = refresh_maps(services, host, scene, moved, state))
             return s;

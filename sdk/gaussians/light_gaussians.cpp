@@ -1,15 +1,18 @@
-#include "shadow_lists.h"
+#include "gaussians/light_gaussians.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "scene_maths.hpp"
 
-namespace airlight {
+namespace brume {
 namespace {
 
-using namespace brume::maths_double;
+using namespace maths_double;
 
 constexpr size_t most_entries = size_t(1) << 24;  // indices travel as floats
 constexpr int most_levels = 6;
@@ -70,10 +73,10 @@ vec3 in_camera_axes(const brume_plugin_camera &camera, vec3 w)
 
 }  // namespace
 
-bool ShadowLists::refresh(const brume_plugin_scene &scene, bool moved, bool with_camera)
+void LightGaussians::refresh(const brume_plugin_scene &scene, bool moved, bool with_camera)
 {
     if (!moved && build(scene, false, with_camera))
-        return true;
+        return;
     // About four cells per Gaussian, fewer where there are many lights. Where Gaussians cover so much that their lists do
     // not fit, fewer cells are as good.
     const double most_cells = double(most_entries) / 16 / (1.0 + scene.light_count);
@@ -81,11 +84,13 @@ bool ShadowLists::refresh(const brume_plugin_scene &scene, bool moved, bool with
     grid_ = std::clamp(int(std::bit_floor(uint32_t(std::sqrt(cells_wanted)))), 1, 1 << most_levels);
     for (; grid_ > 0; grid_ /= 2)
         if (build(scene, true, with_camera))
-            return true;
-    return false;
+            return;
+    throw Error(BRUME_ERROR_UNSUPPORTED,
+                fmt::format("medium.density: {} Gaussians shadow too much of each other; expected fewer or smaller ones",
+                            scene.gaussian_count));
 }
 
-bool ShadowLists::build(const brume_plugin_scene &scene, bool moved, bool with_camera)
+bool LightGaussians::build(const brume_plugin_scene &scene, bool moved, bool with_camera)
 {
     const Medium medium = medium_of(scene);
     const uint32_t per_origin = uint32_t(grid_) * uint32_t(grid_);
@@ -126,7 +131,7 @@ bool ShadowLists::build(const brume_plugin_scene &scene, bool moved, bool with_c
     return sort_entries(0, per_origin);
 }
 
-void ShadowLists::add_around(const std::array<double, 3> &origin, uint32_t first_cell)
+void LightGaussians::add_around(const std::array<double, 3> &origin, uint32_t first_cell)
 {
     const int levels = std::countr_zero(uint32_t(grid_));
     for (uint32_t i = 0; i < spheres_.size(); ++i) {
@@ -154,7 +159,7 @@ void ShadowLists::add_around(const std::array<double, 3> &origin, uint32_t first
 
 // The grid lies across the light, around all Gaussians; its axes are fixed in the world, so that it outlives a move of the
 // camera as the others do.
-void ShadowLists::add_across(const brume_plugin_scene &scene, uint32_t l, uint32_t first_cell, float *texels, bool moved)
+void LightGaussians::add_across(const brume_plugin_scene &scene, uint32_t l, uint32_t first_cell, float *texels, bool moved)
 {
     const vec3 direction = three(in_world_axes(*scene.camera, scene.lights[l].direction));
     const vec3 helper = std::abs(direction.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
@@ -189,7 +194,7 @@ void ShadowLists::add_across(const brume_plugin_scene &scene, uint32_t l, uint32
 }
 
 // Appends the entries to cell_gaussians, cell by cell, and writes the cells' ranges.
-bool ShadowLists::sort_entries(uint32_t first_cell, uint32_t cell_count)
+bool LightGaussians::sort_entries(uint32_t first_cell, uint32_t cell_count)
 {
     if (entries_.size() + cell_gaussians.size() > most_entries)
         return false;
@@ -211,4 +216,4 @@ bool ShadowLists::sort_entries(uint32_t first_cell, uint32_t cell_count)
     return true;
 }
 
-}  // namespace airlight
+}  // namespace brume

@@ -5,18 +5,18 @@
 
 #include <brume/brume_plugin.h>
 
-namespace airlight {
+namespace brume {
 
 // Which Gaussians can lie between an origin (0: the camera, 1 + l: light l) and a point in some direction from it, as the
-// data images of shaders/lib/shadow.glsl have it.
+// data images of shaders/lib/shadow.glsl have it: product "light_gaussians".
 //
 // A grid of direction cells won over a tree of cones and over intervals (Fogshop sec. 5.1): a shader finds its list with one
 // fetch, and building it descends a quadtree over the cells, about as many steps as the lists have entries.
-class ShadowLists {
+class LightGaussians {
 public:
     // moved: lights, Gaussians or medium changed; else only the camera did, whose own lists alone are then built again.
-    // Returns false if the lists grow beyond what a float can count.
-    bool refresh(const brume_plugin_scene &scene, bool moved, bool with_camera);
+    // Throws Error(BRUME_ERROR_UNSUPPORTED) if the lists grow beyond what a float can count.
+    void refresh(const brume_plugin_scene &scene, bool moved, bool with_camera);
 
     std::vector<float> origins;         // 3 texels each
     std::vector<float> cells;           // one texel each
@@ -45,4 +45,4 @@ private:
     size_t light_entries_ = 0;  // of cell_gaussians, before the camera's
 };
 
-}  // namespace airlight
+}  // namespace brume
