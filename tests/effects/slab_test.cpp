@@ -76,6 +76,24 @@ TEST(SlabField, LosesNoEnergyWhereNothingIsAbsorbed)
                 }
 }
 
+// What surfaces need of it by itself.
+TEST(SlabField, WhatTheGroundReceivesIsTheFieldsThere)
+{
+    for (double g : {-0.9, 0.0, 0.6, 0.95})
+        for (double albedo : {0.0, 0.7, 1.0})
+            for (double depth : {0.0, 1e-5, 0.9e-3, 0.01, 1.0, 40.0, 1e5})
+                for (double sun : {0.0, 1.0})
+                    for (double cosine : {0.1, 1.0})
+                        for (double ground : {0.0, 0.5, 1.0}) {
+                            const double s = albedo * depth / (1 - g), a = (1 - albedo) * depth;
+                            const SlabField f = slab_field(vec2(s), vec2(a), g, sun, cosine, ground);
+                            const f64::SlabStreams streams = f64::slab_streams(s, a, g, sun, cosine, ground);
+                            EXPECT_NEAR(f64::slab_ground(streams, sun, ground), f.down, 1e-9)
+                                << g << " " << albedo << " " << depth << " " << sun << " " << cosine << " " << ground;
+                            EXPECT_NEAR(streams.straight, f.straight, 1e-12);
+                        }
+}
+
 TEST(SlabField, NothingChangesInNoMediumAndLittleInAThinOne)
 {
     for (double cosine : {0.1, 0.5, 1.0}) {
