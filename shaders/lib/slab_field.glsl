@@ -1,11 +1,10 @@
 // What arrives of a sun and of a sky within a medium that lies in layers. Needs radiance.glsl.
 //
 // Two streams of Eddington's kind (Joseph, Wiscombe and Weinman 1976): with E the sun's irradiance across its rays, m the inverse cosine
-// of their slant, t the depth below the top and all depths and coefficients those of a medium whose forward peak, g^2 of what it
-// scatters, goes straight on, S = D + U and F = D - U of the light that comes down and up obey
+// of their slant, t the depth below the top and all depths and coefficients those of a medium whose forward peak f goes straight on, S = D + U and F = D - U of the light that comes down and up obey
 //   S' = -b F + d E e^(-m t),  F' = -a S + w E e^(-m t),  a = 2 (1 - w),  b = 3/2 (1 - w g),  d = 3/2 w g / m,
 // between a sky's D at the top and a ground that gives back its albedo of all that falls on it. No energy is lost: where nothing is
-// absorbed F and the sun's own flux keep their sum.
+// absorbed F and the sun's own flux keep their sum. f is g^2, or g^2 (1 - (1 - g) low).
 
 // Over the light's irradiance: of a sun, across its rays; of a sky, on level ground in clear air.
 struct SlabField {
@@ -26,6 +25,8 @@ PURE float between_decays(float k, float m, float t)
 // The solution for all depths: S = sun q between_decays + top sinh(k (T - t)) / sinh(k T) + bottom sinh(k t) / sinh(k T).
 struct SlabStreams {
     float depth;     // T, of all the medium
+    float turning;   // 1 - f
+    float turned;    // g of what is left
     float slant;     // m
     float w;
     float a;
@@ -42,13 +43,17 @@ struct SlabStreams {
 
 // scattering, absorption: optical depths straight down to the ground. sun: 1, and the cosine that its light has to straight down; or 0,
 // and all comes from the sky. albedo: the ground's.
-PURE SlabStreams slab_streams(float scattering, float absorption, float asymmetry, float sun, float cosine, float albedo)
+PURE SlabStreams slab_streams(float scattering, float absorption, float asymmetry, float low, float sun, float cosine, float albedo)
 {
     float g = clamp(asymmetry, -largest_asymmetry, largest_asymmetry);
-    float s = min(scattering, slab_depth_limit) * (R(1.0) - g * g);
+    // 1 - f and (g - f) / (1 - f), as they do not cancel.
+    float less = min(low, R(1.0) / (R(1.0) - g));
+    float rest = R(1.0) + g + g * g * less;
+    float turning = (R(1.0) - g) * rest;
+    float turned = g * (R(1.0) + g * less) / rest;
+    float s = min(scattering, slab_depth_limit) * turning;
     float taken = min(absorption, slab_depth_limit);
     float T = s + taken;
-    float turned = g / (R(1.0) + g);
     float w = clamp(s / max(T, R(1e-30)), R(0.0), R(1.0));
     float lost = clamp(taken / max(T, R(1e-30)), R(0.0), R(1.0));
     float m = R(1.0) / max(cosine, least_slant);
@@ -75,7 +80,14 @@ PURE SlabStreams slab_streams(float scattering, float absorption, float asymmetr
     float scale = b * ((R(1.0) - albedo) * T * b + R(2.0) * coth + (R(1.0) + albedo) * a * T);
     float top = (first * ((R(1.0) - albedo) * T * b + (R(1.0) + albedo) * coth) + second * csch) / scale;
     float bottom = ((T * b + coth) * second + (R(1.0) + albedo) * csch * first) / scale;
-    return SlabStreams(T, m, w, a, b, d, k, q, fading, straight, source, top, bottom);
+    return SlabStreams(T, turning, turned, m, w, a, b, d, k, q, fading, straight, source, top, bottom);
+}
+
+// Of what surfaces receive of low suns less counts as straight, for a small turn sends it up or down: fitted to Monte Carlo
+// (slab_calibration), by which radiance is nearer with all of it.
+PURE float low_sun(float cosine)
+{
+    return R(2.0) * (R(1.0) - clamp(cosine, R(0.0), R(1.0)));
 }
 
 // Shallower, the solution takes differences of what it divides by T, and their series serve.
@@ -84,30 +96,60 @@ const float thin_slab = R(1e-3);
 PURE float down_through_thin(IN(SlabStreams) streams, float t, float sun, float albedo)
 {
     float m = streams.slant;
-    return (R(1.0) - sun) * (R(1.0) - R(0.5) * (streams.a + streams.b) * t) +
-           R(0.5) * (streams.b - streams.a) * albedo * (R(1.0) - sun + sun / m) * t +
-           R(0.5) * sun * (streams.w + streams.d) * one_minus_exp(m * t) / m;
+    float down = (R(1.0) - sun) * (R(1.0) - R(0.5) * (streams.a + streams.b) * t) +
+                 R(0.5) * (streams.b - streams.a) * albedo * (R(1.0) - sun + sun / m) * t +
+                 R(0.5) * sun * (streams.w + streams.d) * one_minus_exp(m * t) / m;
+    return max(down, R(0.0));
 }
 
 // What comes down onto the ground.
 PURE float slab_ground(IN(SlabStreams) streams, float sun, float albedo)
 {
     // Of S and what the ground gives back of the sun's own flux and of D.
-    float down = (streams.source + streams.bottom - albedo * sun / streams.slant * streams.straight) / (R(1.0) + albedo);
+    float back = albedo * sun / streams.slant * streams.straight;
+    float down = max((streams.source + streams.bottom - back) / (R(1.0) + albedo), R(0.0));
     Bool thin = streams.depth < thin_slab;
     if (some(thin))
         down = choose(thin, down_through_thin(streams, streams.depth, sun, albedo), down);
-    return max(down, R(0.0));
+    return down;
+}
+
+// How diffuse light of a sun comes onto the ground, of which slab_ground() is all that level ground receives.
+struct SlabSide {
+    float walls;   // of that, what a wall has of it, all around
+    float toward;  // flux along the ground from the sun's side, over the sine of its slant
+};
+
+// Thin layers are bright toward the horizon, thick ones above (fitted to Monte Carlo). The flux along the ground is that of two streams,
+// X down and Y up, each at the mean cosine of light that runs along the ground, c = 3/8:
+//   c X' = -X + w g (X + Y) / 2 + w g e^(-m t) / 2,  and Y likewise upward,
+// of which nothing comes in from above, nor from the ground, which gives back alike to all sides.
+PURE SlabSide slab_side(IN(SlabStreams) streams)
+{
+    const float c = R(0.375);
+    float walls = R(0.41) + R(0.64) * exp(-R(1.9) * streams.depth);
+    float again = streams.w * streams.turned;
+    float k = sqrt(R(1.0) - again) / c;
+    float m = streams.slant;
+    float strength = again / (c * c);
+    float source = strength * between_decays(k, m, streams.depth);
+    float gone = exp(-k * streams.depth);
+    float both = R(1.0) + c * k;
+    float less = R(1.0) - c * k;
+    float top = c * strength / (m + k);
+    float bottom = -source * less - c * strength * streams.straight / (m + k);
+    float scale = both * both - gone * gone * less * less;
+    return SlabSide(walls, source + (gone * (top * both - gone * less * bottom) + bottom * both - gone * less * top) / scale);
 }
 
 // scattering, absorption: optical depths straight down, to the point and to the ground below.
 PURE SlabField slab_field(vec2 scattering, vec2 absorption, float asymmetry, float sun, float cosine, float albedo)
 {
-    SlabStreams streams = slab_streams(max(scattering.x, scattering.y), max(absorption.x, absorption.y), asymmetry, sun, cosine, albedo);
-    float g = clamp(asymmetry, -largest_asymmetry, largest_asymmetry);
+    SlabStreams streams =
+        slab_streams(max(scattering.x, scattering.y), max(absorption.x, absorption.y), asymmetry, R(0.0), sun, cosine, albedo);
     float m = streams.slant;
     float T = streams.depth;
-    float t = min(min(scattering.x, slab_depth_limit) * (R(1.0) - g * g) + min(absorption.x, slab_depth_limit), T);
+    float t = min(min(scattering.x, slab_depth_limit) * streams.turning + min(absorption.x, slab_depth_limit), T);
     float straight = sun * exp(-min(m * t, slab_depth_limit));
     Bool thin = T < thin_slab;
     SlabField shallow = SlabField(R(0.0), R(0.0), straight);

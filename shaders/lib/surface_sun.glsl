@@ -12,44 +12,55 @@ PURE float cosine_up(IN(Surface) surface, vec3 up)
     return choose(has_normal(surface), clamp(dot(surface.normal, up), R(-1.0), R(1.0)), R(1.0));
 }
 
-// Of a light's irradiance: of a sun, across its rays; of a sky, on level ground in clear air. Optical depths of the way straight down.
-PURE float diffuse_down(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun, float cosine)
-{
-    return slab_ground(slab_streams(scattering, absorption, asymmetry, sun, cosine, settings.ground), sun, settings.ground);
-}
-
 PURE float depth_of(float coefficient, float p)
 {
     return min(coefficient * p, orders_depth_limit);
 }
 
-// At these optical depths of the way to a sun, of its irradiance across its rays: diffuse light comes from above alike.
-PURE Received received_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up,
-                              float normal_up)
-{
-    SlabStreams streams =
-        slab_streams(scattering * sun_up, absorption * sun_up, asymmetry, R(1.0), sun_up, settings.ground);
-    return Received(streams.straight, slab_ground(streams, R(1.0), settings.ground) * R(0.5) * (R(1.0) + normal_up));
-}
-
-// How a surface lies below a sun.
+// How a surface, or a mirrored ray, lies below a sun: the cosine to the way up, and how much the sun's side of the way along the ground
+// has of it, times the sine of the sun's slant.
 struct SunFacing {
-    float sun_up;
-    float normal_up;
-    float sky;  // what the mirrored ray sees of an even half sphere
+    float up;
+    float toward;
 };
 
-PURE Arrived arrived_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, IN(SunFacing) lies,
-                            IN(Facing) facing, IN(Shine) shine, bool glossy)
+// up: cosine to the way up; to_sun: to the sun.
+PURE SunFacing below_sun(float up, float to_sun, IN(SunSlant) slant)
 {
-    Received r = received_of_sun(settings, scattering, absorption, asymmetry, lies.sun_up, lies.normal_up);
-    Arrived arrived = Arrived(r.along, R(0.0), r.aside, R(0.0));
+    return SunFacing(up, to_sun - up * slant.cosine);
+}
+
+PURE SunFacing surface_below_sun(IN(Surface) surface, IN(Light) light, IN(SunSlant) slant)
+{
+    SunFacing lies = below_sun(cosine_up(surface, slant.up), cosine_to(surface, light), slant);
+    return SunFacing(lies.up, choose(has_normal(surface), lies.toward, R(0.0)));
+}
+
+// Diffuse light of a sun onto a surface, `down` of it onto level ground. All over the irradiance across its rays.
+PURE float onto_surface(float down, IN(SlabSide) side, IN(SunFacing) lies)
+{
+    float level = R(0.5) * (R(1.0) + lies.up) + (side.walls - R(0.5)) * (R(1.0) - lies.up * lies.up);
+    return max(down * level + side.walls * side.toward * lies.toward, R(0.0));
+}
+
+// At these optical depths of the way to the sun.
+PURE SlabStreams streams_below_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float cosine)
+{
+    return slab_streams(scattering * cosine, absorption * cosine, asymmetry, low_sun(cosine), R(1.0), cosine, settings.ground);
+}
+
+PURE Arrived arrived_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, IN(SunSlant) slant,
+                            IN(SunFacing) lies, IN(SunFacing) mirrored, IN(Facing) facing, IN(Shine) shine, bool glossy)
+{
+    SlabStreams streams = streams_below_sun(settings, scattering, absorption, asymmetry, slant.cosine);
+    float down = slab_ground(streams, R(1.0), settings.ground);
+    SlabSide side = slab_side(streams);
+    Arrived arrived = Arrived(streams.straight, R(0.0), onto_surface(down, side, lies), R(0.0));
     if (glossy) {
         arrived.kept = exp(-(scattering + absorption));
-        // Radiance from above is even but for the sun's own forward peak.
-        arrived.mirrored_aside =
-            r.aside / max(pi * R(0.5) * (R(1.0) + lies.normal_up), R(1e-6)) * lies.sky +
-            max(r.along - arrived.kept, R(0.0)) * henyey_greenstein(asymmetry * shine.cosine, facing.mirror_cosine);
+        float around = max(down + R(1.5) * side.toward * mirrored.toward, R(0.0)) * R(0.5) * (R(1.0) + mirrored.up) / pi;
+        arrived.mirrored_aside = around + max(arrived.along - arrived.kept, R(0.0)) *
+                                              henyey_greenstein(asymmetry * shine.cosine, facing.mirror_cosine);
     }
     return arrived;
 }
@@ -76,19 +87,19 @@ PURE Change change_by_sun(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Su
     SunSlant slant = sun_slant(medium, light.direction, surface.point);
     float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     Facing facing = facing_of(surface, light, material, shine, glossy);
-    SunFacing lies = SunFacing(slant.cosine, cosine_up(surface, slant.up),
-                               R(0.5) * (R(1.0) + clamp(dot(shine.mirrored, slant.up), R(-1.0), R(1.0))));
+    SunFacing lies = surface_below_sun(surface, light, slant);
+    SunFacing mirrored = below_sun(clamp(dot(shine.mirrored, slant.up), R(-1.0), R(1.0)), -dot(shine.mirrored, light.direction), slant);
     float g = medium.asymmetry;
-    Arrived red = arrived_of_sun(settings, depth_of(medium.scattering.x, p), depth_of(medium.absorption.x, p), g, lies, facing, shine,
-                                 glossy);
+    Arrived red = arrived_of_sun(settings, depth_of(medium.scattering.x, p), depth_of(medium.absorption.x, p), g, slant, lies, mirrored,
+                                 facing, shine, glossy);
     Arrived green = red;
     if (!green_as_red(medium))
-        green = arrived_of_sun(settings, depth_of(medium.scattering.y, p), depth_of(medium.absorption.y, p), g, lies, facing, shine,
-                               glossy);
+        green = arrived_of_sun(settings, depth_of(medium.scattering.y, p), depth_of(medium.absorption.y, p), g, slant, lies, mirrored,
+                               facing, shine, glossy);
     Arrived blue = green;
     if (!blue_as_green(medium))
-        blue = arrived_of_sun(settings, depth_of(medium.scattering.z, p), depth_of(medium.absorption.z, p), g, lies, facing, shine,
-                              glossy);
+        blue = arrived_of_sun(settings, depth_of(medium.scattering.z, p), depth_of(medium.absorption.z, p), g, slant, lies, mirrored,
+                              facing, shine, glossy);
     return change_of_arrived(surface, light, material, shine, facing, red, green, blue);
 }
 
@@ -132,7 +143,8 @@ struct SkyArrived {
 
 PURE SkyArrived arrived_of_sky(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry)
 {
-    float all = diffuse_down(settings, scattering, absorption, asymmetry, R(0.0), R(1.0));
+    SlabStreams streams = slab_streams(scattering, absorption, asymmetry, R(0.0), R(0.0), R(1.0), settings.ground);
+    float all = slab_ground(streams, R(0.0), settings.ground);
     // Even light keeps e^(-1.66 t) of its ways, within a twentieth (2 E_3).
     float straight = min(scattering * (R(1.0) - asymmetry * asymmetry) + absorption, orders_depth_limit);
     return SkyArrived(all, min(exp(-R(1.66) * straight), all));
@@ -184,10 +196,20 @@ PURE vec3 sky_irradiance(IN(Camera) camera, IN(SurfaceSettings) settings, sample
     return environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
 }
 
-// Light that comes alike from all the half sphere around an axis, `down` of it onto level ground.
-PURE float sent_from_above(float down, IN(Sent) sent)
+// What a point sends on of a sun's diffuse light, as onto_surface() has it. above: of light from straight above; of_sun: degree 1 of
+// light from the sun.
+PURE float sent_below_sun(float down, IN(SlabSide) side, IN(Sent) above, float of_sun, float cosine)
 {
-    return R(2.0) * down * max(sent.of[0] + R(0.5) * sent.of[1] - R(0.125) * sent.of[3], R(0.0));
+    float even = R(2.0) * (above.of[0] + R(0.5) * above.of[1] - R(0.125) * above.of[3]);
+    float low = (side.walls - R(0.5)) * R(8.0 / 3.0) * (above.of[0] - R(0.8) * above.of[2]);
+    return max(down * (even + low) + R(2.0) * side.walls * side.toward * (of_sun - cosine * above.of[1]), R(0.0));
+}
+
+PURE float sent_of_sun_in(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float cosine,
+                          IN(Sent) above, float of_sun)
+{
+    SlabStreams streams = streams_below_sun(settings, scattering, absorption, asymmetry, cosine);
+    return sent_below_sun(slab_ground(streams, R(1.0), settings.ground), slab_side(streams), above, of_sun, cosine);
 }
 
 // Radiance for albedo 1 of what the medium brings of a sun.
@@ -195,16 +217,20 @@ PURE vec3 sent_of_sun(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) 
                       IN(Transfer) transfer, sampler2D gaussians)
 {
     SunSlant slant = sun_slant(medium, light.direction, surface.point);
-    Sent sent = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, slant.up), cosine_up(surface, slant.up));
-    float p = slant.cosine * density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
+    Sent above = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, slant.up), cosine_up(surface, slant.up));
+    float of_sun = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, -light.direction),
+                               cosine_to(surface, light)).of[1];
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     float g = medium.asymmetry;
-    vec3 down = vec3(diffuse_down(settings, depth_of(medium.scattering.x, p), depth_of(medium.absorption.x, p), g, R(1.0), slant.cosine));
+    vec3 sent = vec3(sent_of_sun_in(settings, depth_of(medium.scattering.x, p), depth_of(medium.absorption.x, p), g, slant.cosine, above,
+                                    of_sun));
     if (!green_as_red(medium)) {
-        down.y = diffuse_down(settings, depth_of(medium.scattering.y, p), depth_of(medium.absorption.y, p), g, R(1.0), slant.cosine);
-        down.z = down.y;
+        sent.y = sent_of_sun_in(settings, depth_of(medium.scattering.y, p), depth_of(medium.absorption.y, p), g, slant.cosine, above,
+                                of_sun);
+        sent.z = sent.y;
     }
     if (!blue_as_green(medium))
-        down.z = diffuse_down(settings, depth_of(medium.scattering.z, p), depth_of(medium.absorption.z, p), g, R(1.0), slant.cosine);
-    return sent_of_irradiance(surface, light, vec3(sent_from_above(down.x, sent), sent_from_above(down.y, sent),
-                                                   sent_from_above(down.z, sent)));
+        sent.z = sent_of_sun_in(settings, depth_of(medium.scattering.z, p), depth_of(medium.absorption.z, p), g, slant.cosine, above,
+                                of_sun);
+    return sent_of_irradiance(surface, light, sent);
 }
