@@ -70,13 +70,10 @@ const SurfaceSettings &settings_of(const Constants &constants)
 #define BRUME_LANES_BODY "rows_lanes.inc"
 #include "lanes_bodies.inc"
 
-// Pixels go side by side where what surface_lamp.glsl has to say of lights is all that it takes.
+// Published methods go pixel by pixel: they are for comparison.
 const Rows &rows_for(const brume_plugin_rows &call)
 {
-    namespace maths = brume::maths_float;
-    const auto &settings = constants_of(call).settings;
-    if (settings.method != maths::method_calibrated || settings.environment_order > 0 ||
-        maths::may_have(settings, maths::without_suns))
+    if (constants_of(call).settings.method != brume::maths_float::method_calibrated)
         return pixels::rows;
     return BRUME_OF_THIS_MACHINE(rows);
 }

@@ -112,6 +112,11 @@ PURE vec3 emitted(IN(Medium) medium, vec3 p)
     return min(medium.emission * length, vec3(density_limit));
 }
 
+PURE vec3 chosen(Bool which, vec3 a, vec3 b)
+{
+    return vec3(choose(which, a.x, b.x), choose(which, a.y, b.y), choose(which, a.z, b.z));
+}
+
 // A component that is not finite gives no light to others: one bad pixel must not blacken the frame.
 PURE vec3 finite_or_zero(vec3 color)
 {

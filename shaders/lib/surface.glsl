@@ -3,6 +3,7 @@
 #include "surface_published.glsl"
 #include "surface_lamp.glsl"
 #include "surface_transfer.glsl"
+#include "surface_sun.glsl"
 
 // Received of a lamp by a published method, whose `aside` comes at all cosines.
 PURE Received published(int method, sampler2D table, float scattering, float absorption, float cosine)
@@ -41,26 +42,6 @@ PURE float lit_by_map(IN(Camera) camera, int shadowed, SHADOW_MAP_IMAGES, IN(Sur
     return ray.kind == 0 || is_lit(shadow_maps, ray, distance) ? R(1.0) : R(0.0);
 }
 
-// Cosine between the normal and the way up.
-PURE float cosine_up(IN(Surface) surface, vec3 up)
-{
-    return surface.normal == vec3(R(0.0)) ? R(1.0) : clamp(dot(surface.normal, up), R(-1.0), R(1.0));
-}
-
-// At these optical depths of the way to a sun.
-PURE SlabField sun_field(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up)
-{
-    return slab_field(vec2(scattering * sun_up), vec2(absorption * sun_up), asymmetry, R(1.0), sun_up, settings.ground);
-}
-
-// Of a sun's irradiance across its rays: diffuse light comes from above alike.
-PURE Received received_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up,
-                              float normal_up)
-{
-    SlabField field = sun_field(settings, scattering, absorption, asymmetry, sun_up);
-    return Received(field.straight, field.down * R(0.5) * (R(1.0) + normal_up));
-}
-
 // Of a pixel; parts: as SurfaceSettings::material.
 PURE Material material_at(int parts, sampler2D albedo, sampler2D specular, sampler2D roughness, ivec2 p)
 {
@@ -73,19 +54,6 @@ PURE Material material_at(int parts, sampler2D albedo, sampler2D specular, sampl
         rough = texelFetch(roughness, p, 0).x;
     }
     return material_of(parts, vec3(texelFetch(albedo, p, 0)), of_gloss, rough);
-}
-
-// What arrives of a sun by method calibrated.
-PURE Arrived arrived_of_sun(IN(SurfaceSettings) settings, float scattering, float absorption, float asymmetry, float sun_up,
-                            float normal_up, float mirrored_up, IN(Facing) facing, IN(Shine) shine)
-{
-    float kept = exp(-(scattering + absorption));
-    Received r = received_of_sun(settings, scattering, absorption, asymmetry, sun_up, normal_up);
-    // Radiance from above is even but for the sun's own forward peak.
-    float sky = R(0.5) * (R(1.0) + clamp(mirrored_up, R(-1.0), R(1.0)));
-    return Arrived(r.along, kept, r.aside,
-                   r.aside / max(pi * R(0.5) * (R(1.0) + normal_up), R(1e-6)) * sky +
-                       max(r.along - kept, R(0.0)) * henyey_greenstein(asymmetry * shine.cosine, facing.mirror_cosine));
 }
 
 // What arrives of a lamp by a published method.
@@ -101,52 +69,40 @@ PURE Arrived arrived_as_published(int method, sampler2D table, float scattering,
 }
 
 // Of one colour, at these coefficients and this int rho dt.
-PURE Arrived arrived_of(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, sampler2D table, float scattering,
-                        float absorption, float p, bool sun, IN(SunSlant) slant, IN(Facing) facing, IN(Material) material,
-                        IN(Shine) shine)
+PURE Arrived arrived_of(IN(SurfaceSettings) settings, sampler2D table, float scattering, float absorption, float p, IN(Facing) facing,
+                        IN(Material) material, IN(Shine) shine)
 {
-    float s = min(scattering * p, orders_depth_limit);
-    float a = min(absorption * p, orders_depth_limit);
-    if (sun)
-        return arrived_of_sun(settings, s, a, medium.asymmetry, slant.cosine, cosine_up(surface, slant.up),
-                              dot(shine.mirrored, slant.up), facing, shine);
-    return arrived_as_published(settings.method, table, s, a, facing, material.exponent, shine.gloss != vec3(R(0.0)));
+    return arrived_as_published(settings.method, table, depth_of(scattering, p), depth_of(absorption, p), facing, material.exponent,
+                                shine.gloss != vec3(R(0.0)));
 }
 
-// Without a material it changes by a factor; light that is flat counts as if it were not.
-PURE float share_of_arrived(IN(Arrived) arrived, float cosine)
+PURE Change change_as_published(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
+                                IN(Material) material, IN(Shine) shine, sampler2D gaussians, sampler2D table)
 {
-    return arrived.along + arrived.aside / max(cosine, least_cosine);
+    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
+    Facing facing = facing_of(surface, light, material, shine, true);
+    Arrived red = arrived_of(settings, table, medium.scattering.x, medium.absorption.x, p, facing, material, shine);
+    Arrived green = red;
+    if (!green_as_red(medium))
+        green = arrived_of(settings, table, medium.scattering.y, medium.absorption.y, p, facing, material, shine);
+    Arrived blue = green;
+    if (!blue_as_green(medium))
+        blue = arrived_of(settings, table, medium.scattering.z, medium.absorption.z, p, facing, material, shine);
+    return change_of_arrived(surface, light, material, shine, facing, red, green, blue);
 }
 
 // What becomes of a light's part of the picture; of suns by method calibrated alone, else theirs stays as it is.
 PURE Change change_by_light(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
                             IN(Light) light, IN(Material) material, IN(Shine) shine, sampler2D gaussians, sampler2D table)
 {
-    bool sun = may_have(settings, without_suns) && light.type == light_directional;
-    if (!sun && settings.method == method_calibrated)
+    if (settings.method == method_calibrated) {
+        if (is_sun(settings, light))
+            return change_by_sun(medium, settings, surface, light, material, shine, gaussians);
         return change_by_lamp(medium, colours, settings, surface, light, material, shine, gaussians);
-    if (sun && settings.method != method_calibrated)
+    }
+    if (is_sun(settings, light))
         return scaled_by(vec3(R(1.0)));
-    SunSlant slant = SunSlant(vec3(R(0.0)), R(1.0));
-    if (sun)
-        slant = sun_slant(medium, light.direction, surface.point);
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
-    Facing facing = facing_of(surface, light, material, shine, true);
-    Arrived red = arrived_of(medium, settings, surface, table, medium.scattering.x, medium.absorption.x, p, sun, slant, facing,
-                             material, shine);
-    Arrived green = red;
-    if (!green_as_red(medium))
-        green = arrived_of(medium, settings, surface, table, medium.scattering.y, medium.absorption.y, p, sun, slant, facing, material,
-                           shine);
-    Arrived blue = green;
-    if (!blue_as_green(medium))
-        blue = arrived_of(medium, settings, surface, table, medium.scattering.z, medium.absorption.z, p, sun, slant, facing, material,
-                          shine);
-    if (some(material.known))
-        return change_of(surface, light, material, shine, facing, red, green, blue);
-    return scaled_by(vec3(share_of_arrived(red, facing.cosine), share_of_arrived(green, facing.cosine),
-                          share_of_arrived(blue, facing.cosine)));
+    return change_as_published(medium, settings, surface, light, material, shine, gaussians, table);
 }
 
 PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light, IN(Material) material,
@@ -156,23 +112,6 @@ PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surfac
     around.material = 2;
     return becomes(change_by_light(medium, lamp_colours(medium), around, surface, light, material, shine_of(surface, material),
                                    gaussians, table), own);
-}
-
-// Irradiance by an environment of `order` degrees of spherical harmonics (environment.glsl), of which those above 2 hardly count.
-PURE vec3 environment_irradiance(sampler2D environment, int order, vec3 normal)
-{
-    vec3 sum = R(0.886226925453) * vec3(data_texel(environment, 0));
-    if (order > 1)
-        sum += R(1.02332670795) * (normal.y * vec3(data_texel(environment, 1)) + normal.z * vec3(data_texel(environment, 2)) +
-                                   normal.x * vec3(data_texel(environment, 3)));
-    if (order > 2) {
-        sum += R(0.858085531) * (normal.x * normal.y * vec3(data_texel(environment, 4)) +
-                                 normal.y * normal.z * vec3(data_texel(environment, 5)) +
-                                 normal.x * normal.z * vec3(data_texel(environment, 7)));
-        sum += R(0.2477079561) * (R(3.0) * normal.z * normal.z - R(1.0)) * vec3(data_texel(environment, 6));
-        sum += R(0.4290427655) * (normal.x * normal.x - normal.y * normal.y) * vec3(data_texel(environment, 8));
-    }
-    return max(sum, vec3(R(0.0)));
 }
 
 // The environment's part of the picture after, by method psf: eq. 27 with a lobe of Phong for the rest of what reflects. Without a
@@ -204,57 +143,6 @@ PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSet
     return sum;
 }
 
-// int rho dt from a surface up, out of the medium; negative where it has no end.
-PURE float density_above(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians, int gaussian_count, vec3 point, vec3 up)
-{
-    if (medium.constant > R(0.0) && camera.sky != sky_clamp)
-        return R(-1.0);
-    float p = density_between(medium, point, up, far_away, medium.constant > R(0.0) ? camera.sky_distance : R(0.0));
-    for (int i = 0; i < gaussian_count; ++i)
-        p += profile_depth(profile_along(gaussian_at(gaussians, i), point, up), R(0.0), far_away);
-    return clamp(p, R(0.0), density_limit);
-}
-
-// What is left of the environment's part by method calibrated. Layers lie as thinning_way() has it, else along the surface. An even
-// sky, over a ground that gives all back and fog that absorbs nothing, is as it was.
-PURE vec3 environment_share(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D environment,
-                            sampler2D gaussians, IN(Surface) surface)
-{
-    vec3 up = thinning_way(medium, surface.point);
-    if (up == vec3(R(0.0)))
-        up = surface.normal;
-    if (up == vec3(R(0.0)))
-        return vec3(R(1.0));
-    vec3 normal = surface.normal == vec3(R(0.0)) ? up : surface.normal;
-    float p = density_above(medium, camera, gaussians, settings.gaussian_count, surface.point, up);
-    if (p < R(0.0))
-        return vec3(R(1.0));
-    vec3 clear = environment_irradiance(environment, settings.environment_order, in_world(camera, normal));
-    vec3 above = environment_irradiance(environment, settings.environment_order, in_world(camera, up));
-    vec3 below = environment_irradiance(environment, settings.environment_order, in_world(camera, -up));
-    vec3 around = mix(below, above, R(0.5) * (R(1.0) + clamp(dot(normal, up), R(-1.0), R(1.0))));
-    float g = medium.asymmetry;
-    vec3 share = vec3(R(1.0));
-    for (int c = 0; c < 3; ++c) {
-        float s = min(medium.scattering[c] * p, orders_depth_limit);
-        float a = min(medium.absorption[c] * p, orders_depth_limit);
-        float all = slab_field(vec2(s), vec2(a), g, R(0.0), R(1.0), settings.ground).down;
-        // Even light keeps e^(-1.66 t) of its ways, within a twentieth (2 E_3).
-        float along = min(exp(-R(1.66) * min(s * (R(1.0) - g * g) + a, orders_depth_limit)), all);
-        float becomes = along * clear[c] + (all - along) * around[c];
-        share[c] = clear[c] > R(0.0) ? min(becomes / max(clear[c], R(1e-30)), radiance_limit) : all;
-    }
-    return share;
-}
-
-// The environment's irradiance in clear air.
-PURE vec3 sky_irradiance(IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D environment, IN(Surface) surface)
-{
-    if (settings.environment_order == 0)
-        return vec3(R(0.0));
-    return environment_irradiance(environment, settings.environment_order, in_world(camera, surface.normal));
-}
-
 // What the medium adds to the environment's part of the picture.
 PURE vec3 sky_change(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D gaussians, sampler2D environment,
                      sampler2D table, IN(Surface) surface, IN(Material) material, vec3 own)
@@ -280,41 +168,26 @@ PURE float sent_by_psf(sampler2D table, float scattering, float absorption, IN(S
     return scattering / max(scattering + absorption, R(1e-30)) * max(sum, R(0.0));
 }
 
-// Light that comes alike from all the half sphere around an axis, `down` of it onto level ground.
-PURE float sent_from_above(float down, IN(Sent) sent)
-{
-    return R(2.0) * down * max(sent.of[0] + R(0.5) * sent.of[1] - R(0.125) * sent.of[3], R(0.0));
-}
-
 // Radiance for albedo 1 of what the medium brings of a light; of suns by method calibrated alone.
 PURE vec3 sent_of_light(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings,
                         IN(Surface) surface, IN(Light) light, IN(Transfer) transfer, sampler2D gaussians, sampler2D table)
 {
-    bool sun = may_have(settings, without_suns) && light.type == light_directional;
-    if (!sun && settings.method == method_calibrated)
+    if (settings.method == method_calibrated) {
+        if (is_sun(settings, light))
+            return sent_of_sun(medium, camera, settings, surface, light, transfer, gaussians);
         return sent_of_one_lamp(medium, colours, camera, settings, surface, light, transfer, gaussians);
-    if (sun && settings.method != method_calibrated)
+    }
+    if (is_sun(settings, light))
         return vec3(R(0.0));
     float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
-    vec3 way = way_to(surface, light);
-    float cosine = cosine_to(surface, light);
-    SunSlant slant = SunSlant(way, R(1.0));
-    if (sun) {
-        slant = sun_slant(medium, light.direction, surface.point);
-        way = slant.up;
-        cosine = cosine_up(surface, slant.up);
-    }
-    Sent sent = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, way), cosine);
+    Sent sent = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, way_to(surface, light)),
+                            cosine_to(surface, light));
     vec3 sum = vec3(R(0.0));
     for (int c = 0; c < 3; ++c) {
-        float scattering = min(medium.scattering[c] * p, orders_depth_limit);
-        float absorption = min(medium.absorption[c] * p, orders_depth_limit);
         if (c > 0 && medium.scattering[c] == medium.scattering[c - 1] && medium.absorption[c] == medium.absorption[c - 1])
             sum[c] = sum[c - 1];
-        else if (sun)
-            sum[c] = sent_from_above(sun_field(settings, scattering, absorption, medium.asymmetry, slant.cosine).down, sent);
         else
-            sum[c] = sent_by_psf(table, scattering, absorption, sent);
+            sum[c] = sent_by_psf(table, depth_of(medium.scattering[c], p), depth_of(medium.absorption[c], p), sent);
     }
     return sent_of_irradiance(surface, light, sum);
 }

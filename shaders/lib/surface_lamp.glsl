@@ -91,11 +91,6 @@ PURE Light surface_light(IN(SurfaceSettings) settings, sampler2D lights, int i)
     return light;
 }
 
-PURE vec3 chosen(Bool which, vec3 a, vec3 b)
-{
-    return vec3(choose(which, a.x, b.x), choose(which, a.y, b.y), choose(which, a.z, b.z));
-}
-
 // Where the surface is, and how it lies.
 struct Surface {
     Bool seen;    // there is one

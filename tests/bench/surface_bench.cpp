@@ -1,5 +1,5 @@
-// surface_bench [WIDTH HEIGHT]: what effect surface costs beside multiscatter, with four lamps, by what frames bring. The
-// two take turns; a time is the median of all passes of an effect.
+// surface_bench [WIDTH HEIGHT]: what effect surface costs beside multiscatter, with four lamps and with a sun and a sky, by
+// what frames bring. The two take turns; a time is the median of all passes of an effect.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -29,13 +29,28 @@ struct Shot {
     }
 };
 
+Json four_lamps()
+{
+    const Json lamps{point_light({-3, 3, -6}, 40, 0.1), point_light({3, 3, -9}, 40, 0.1), point_light({-3, 3, -14}, 40, 0.1),
+                     point_light({3, 3, -20}, 40, 0.1)};
+    return lit_scene({{"scattering", {0.03, 0.03, 0.032}}, {"g", 0.8}}, lamps);
+}
+
+Json sun_and_sky()
+{
+    Json scene = lit_scene({{"scattering", {0.03, 0.03, 0.032}}, {"g", 0.8}},
+                           Json::array({{{"type", "directional"}, {"direction", {-0.5, -1, -0.3}}, {"intensity", 3}}}));
+    scene["medium"]["density"] =
+        Json::array({{{"type", "exponential"}, {"value", 0.7}, {"direction", {0, 1, 0}}, {"falloff", 0.1}}});
+    scene["environment"]["sh"] = {{0.8, 0.9, 1}, {0.3, 0.3, 0.4}, {0.1, 0.1, 0.1}, {0, 0, 0}};
+    return scene;
+}
+
 class Run {
 public:
-    Run(brume_context context, Shot &shot, const Json &effects, const Names &layers) : context_(context)
+    Run(brume_context context, Shot &shot, Json scene, const Json &effects, const Names &layers) : context_(context)
     {
-        const Json lamps{point_light({-3, 3, -6}, 40, 0.1), point_light({3, 3, -9}, 40, 0.1),
-                         point_light({-3, 3, -14}, 40, 0.1), point_light({3, 3, -20}, 40, 0.1)};
-        Json scene = lit_scene({{"scattering", {0.03, 0.03, 0.032}}, {"g", 0.8}}, lamps);
+        const size_t lights = scene["lights"].size();
         scene["effects"] = effects;
         const std::string text = scene.dump();
         Context::check(brume_scene_create_from_text(context, text.data(), text.size(), "bench.json", &scene_), context);
@@ -48,7 +63,7 @@ public:
         for (auto &[name, picture] : known)
             if (std::find(layers.begin(), layers.end(), name) != layers.end()) {
                 named.push_back(layer(name));
-                for (uint32_t l = 0; l < (std::string(name) == "light_group" ? 4 : 1); ++l)
+                for (uint32_t l = 0; l < (std::string(name) == "light_group" ? lights : 1); ++l)
                     given_.push_back(layer(name, &images_.emplace_back(describe(*picture)), l));
             }
         brume_format format = BRUME_FORMAT_INIT;
@@ -115,26 +130,28 @@ int main(int argc, char **argv)
         {"normals, albedo", {"normal", "albedo"}},
         {"normals, light groups", {"normal", "light_group"}},
         {"normals, light groups, materials", {"normal", "albedo", "specular", "roughness", "light_group"}}};
-    printf(
-        "| %d x %d, four lamps: on | layers | surface ms | multiscatter ms | times |\n| --- | --- | ---: | ---: | ---: |\n",
-        shot.color.width, shot.color.height);
+    printf("| %d x %d: on | lights | layers | surface ms | multiscatter ms | times |\n"
+           "| --- | --- | --- | ---: | ---: | ---: |\n",
+           shot.color.width, shot.color.height);
     std::vector<std::pair<const char *, brume_context>> devices{{"CPU", cpu()}};
     if (gl())
         devices.push_back({"OpenGL", *gl()});
+    const std::pair<const char *, Json> scenes[] = {{"four lamps", four_lamps()}, {"sun and sky", sun_and_sky()}};
     for (auto &[device, context] : devices)
-        for (auto &[name, layers] : variants) {
-            Run filter(context, shot, {{"multiscatter", Json::object()}}, {});
-            Run surface(context, shot, {{"surface", Json::object()}}, layers);
-            for (int round = 0; round < 6; ++round) {
-                filter.execute();
-                surface.execute();
-                if (round == 0) {
-                    filter.forget();
-                    surface.forget();
+        for (auto &[lights, scene] : scenes)
+            for (auto &[name, layers] : variants) {
+                Run filter(context, shot, scene, {{"multiscatter", Json::object()}}, {});
+                Run surface(context, shot, scene, {{"surface", Json::object()}}, layers);
+                for (int round = 0; round < 6; ++round) {
+                    filter.execute();
+                    surface.execute();
+                    if (round == 0) {
+                        filter.forget();
+                        surface.forget();
+                    }
                 }
+                const double a = surface.median(), b = filter.median();
+                printf("| %s | %s | %s | %.3g | %.3g | %.2f |\n", device, lights, name, a, b, a / b);
+                fflush(stdout);
             }
-            const double a = surface.median(), b = filter.median();
-            printf("| %s | %s | %.3g | %.3g | %.2f |\n", device, name, a, b, a / b);
-            fflush(stdout);
-        }
 }

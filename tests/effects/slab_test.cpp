@@ -76,6 +76,24 @@ TEST(SlabField, LosesNoEnergyWhereNothingIsAbsorbed)
                 }
 }
 
+// What surfaces need of it by itself.
+TEST(SlabField, WhatTheGroundReceivesIsTheFieldsThere)
+{
+    for (double g : {-0.9, 0.0, 0.6, 0.95})
+        for (double albedo : {0.0, 0.7, 1.0})
+            for (double depth : {0.0, 1e-5, 0.9e-3, 0.01, 1.0, 40.0, 1e5})
+                for (double sun : {0.0, 1.0})
+                    for (double cosine : {0.1, 1.0})
+                        for (double ground : {0.0, 0.5, 1.0}) {
+                            const double s = albedo * depth / (1 - g), a = (1 - albedo) * depth;
+                            const SlabField f = slab_field(vec2(s), vec2(a), g, sun, cosine, ground);
+                            const f64::SlabStreams streams = f64::slab_streams(s, a, g, 0, sun, cosine, ground);
+                            EXPECT_NEAR(f64::slab_ground(streams, sun, ground), f.down, 1e-8)
+                                << g << " " << albedo << " " << depth << " " << sun << " " << cosine << " " << ground;
+                            EXPECT_NEAR(streams.straight, f.straight, 1e-12);
+                        }
+}
+
 TEST(SlabField, NothingChangesInNoMediumAndLittleInAThinOne)
 {
     for (double cosine : {0.1, 0.5, 1.0}) {
@@ -133,6 +151,52 @@ TEST(SlabField, IsNearPaths)
     EXPECT_LT(std::sqrt(square / count), 0.02);
 }
 
+// What surfaces of any slope receive, over the sun's irradiance across its rays: low suns and forward peaks, too.
+TEST(SlabField, WallsAreNearPaths)
+{
+    double square = 0;
+    int count = 0;
+    for (double g : {0.0, 0.5, 0.85})
+        for (double cosine : {0.7, 0.3})
+            for (double reduced : {0.1, 0.3, 1.0, 3.0}) {
+                const double slant = std::sqrt(1 - cosine * cosine);
+                const lamp_tracer::Slab slab{1, g, reduced / (1 - g), cosine, 0};
+                const lamp_tracer::vec3 to_sun(slant, 0, cosine),
+                    normals[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, to_sun, -to_sun};
+                const f64::SlabStreams streams = f64::slab_streams(slab.depth, 0, g, f64::low_sun(cosine), 1, cosine, 0);
+                for (const lamp_tracer::vec3 &n : normals) {
+                    const double to = glm::dot(n, to_sun), faced = std::max(to, 0.0);
+                    const double mine = faced * streams.straight +
+                                        f64::onto_surface(f64::slab_ground(streams, 1, 0), f64::slab_side(streams),
+                                                          f64::below_sun(n.z, to, {f64::vec3(0, 0, 1), cosine}));
+                    const double paths = faced * std::exp(-slab.depth / cosine) +
+                                         lamp_tracer::trace_slab_irradiance(slab, slab.depth, n, 6000, 3).mean;
+                    EXPECT_NEAR(mine, paths, 0.05)
+                        << "g " << g << " sun " << cosine << " normal " << n.x << " " << n.y << " " << n.z << " " << reduced;
+                    square += (mine - paths) * (mine - paths);
+                    ++count;
+                }
+            }
+    EXPECT_LT(std::sqrt(square / count), 0.015);
+}
+
+// Surfaces with a transfer of nothing around them get the same.
+TEST(SlabField, HarmonicsOfASunsLightAreThoseOfItsCosines)
+{
+    for (double g : {0.0, 0.85})
+        for (double cosine : {0.2, 0.8})
+            for (double up : {-0.3, 0.0, 0.6, 1.0})
+                for (double to_sun : {-0.4, 0.1, 0.7}) {
+                    const f64::SlabStreams streams = f64::slab_streams(1, 0.1, g, f64::low_sun(cosine), 1, cosine, 0.3);
+                    const double down = f64::slab_ground(streams, 1, 0.3);
+                    const f64::SlabSide side = f64::slab_side(streams);
+                    EXPECT_NEAR(
+                        f64::sent_below_sun(down, side, f64::sent_by_cosine(up), f64::sent_by_cosine(to_sun).of[1], cosine),
+                        f64::onto_surface(down, side, f64::below_sun(up, to_sun, {f64::vec3(0, 0, 1), cosine})) / f64::pi,
+                        1e-9);
+                }
+}
+
 TEST(SlabField, FloatIsDouble)
 {
     for (double g : {-0.999, 0.0, 0.7, 1.0})
@@ -157,6 +221,17 @@ TEST(SlabField, FloatIsDouble)
                                 EXPECT_NEAR(got.down, exact.down, 2e-3) << where();
                                 EXPECT_NEAR(got.up, exact.up, 2e-3) << where();
                                 EXPECT_NEAR(got.straight, exact.straight, 1e-4) << where();
+                                const double low = f64::low_sun(cosine);
+                                const f64::SlabStreams streams =
+                                    f64::slab_streams(scattering, absorption, g, low, sun, cosine, ground);
+                                const f32::SlabStreams narrow =
+                                    f32::slab_streams(float(scattering), float(absorption), float(g), float(low), float(sun),
+                                                      float(cosine), float(ground));
+                                EXPECT_NEAR(f32::slab_ground(narrow, float(sun), float(ground)),
+                                            f64::slab_ground(streams, sun, ground), 2e-3)
+                                    << where();
+                                EXPECT_NEAR(f32::slab_side(narrow).walls, f64::slab_side(streams).walls, 1e-4) << where();
+                                EXPECT_NEAR(f32::slab_side(narrow).toward, f64::slab_side(streams).toward, 2e-3) << where();
                             }
 }
 

@@ -97,33 +97,6 @@ TEST(SurfaceLamp, NetFluxIsThatOfTheParts)
             }
 }
 
-// An environment that gives nothing has the CPU go pixel by pixel.
-TEST(SurfaceLamp, PixelsSideBySideAreWhatEachIsAlone)
-{
-    const Mixed frame;
-    for (const Json &medium : media)
-        for (const char *density : {"constant", "layer and cloud", "shadows"})
-            for (int parts = 0; parts < 4; ++parts)
-                for (size_t groups : {0, 3}) {
-                    Json scene = lit_scene(medium, three_lamps());
-                    if (*density == 'l')
-                        scene["medium"]["density"] = Json::array(
-                            {{{"type", "exponential"}, {"value", 0.7}, {"direction", {0.1, 1, 0}}, {"falloff", 0.2}},
-                             gaussian({0, 0, -6}, 2, 0.8)});
-                    if (*density == 's')
-                        for (Json &lamp : scene["lights"])
-                            lamp["shadow"] = "screen";
-                    scene["effects"] = {{"surface", Json::object()}};
-                    const std::vector<Picture> given(frame.groups.begin(), frame.groups.begin() + long(groups));
-                    const Picture together = relit(cpu(), scene, frame.color, frame.depth, frame.layers(parts), given);
-                    scene["environment"]["sh"] = {{0, 0, 0}};
-                    const Picture alone = relit(cpu(), scene, frame.color, frame.depth, frame.layers(parts), given);
-                    const Worst worst = compare(together, alone, 0.05);
-                    EXPECT_LT(worst.error, 2e-5) << medium << ", " << density << ", " << parts << ": " << worst.describe();
-                    EXPECT_GT(compare(together, frame.color, 0.01).error, 0.01);
-                }
-}
-
 namespace {
 
 class SurfaceLampOn : public testing::TestWithParam<const char *> {
