@@ -9,6 +9,8 @@
 namespace brume {
 namespace {
 
+namespace scalar = maths_float;
+
 float *texel(const brume_plugin_pixels &p, int x, int y)
 {
     return p.data + y * p.row_stride + int64_t(x) * p.channels;

@@ -86,6 +86,18 @@ TEST_P(ListsOn, TilesMissNoGaussian)
             }
 }
 
+// Lists longer than what is read of them at once, of sharp Gaussians of which a pixel meets few.
+TEST_P(ListsOn, LongListsMissNoGaussian)
+{
+    for (int count : {128, 129, 900}) {
+        Json medium{{"scattering", {0.5, 1, 1.5}}};
+        medium["density"] = random_gaussians(count, 5, 12, count > 500 ? 0.3 : 3, 0.5);
+        const Json scene = lit_scene(medium, Json::array());
+        for (auto [width, height] : {std::pair{16, 16}, {41, 30}})
+            hold_optical_depth(context(), scene, width, height, {}, BRUME_ORIGIN_TOP_LEFT);
+    }
+}
+
 TEST_P(ListsOn, FollowTheCameraAndTheKeys)
 {
     // One plan through frames in which the camera, then the lights, then the Gaussians move, and a plan for each frame.
