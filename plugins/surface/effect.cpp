@@ -1,8 +1,10 @@
 // surface: what lamps give the surfaces of a picture that was made in clear air, with the medium between them.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
+#include "scene_maths.hpp"
 #include "tables.h"
 #include "state.h"
 
@@ -38,7 +40,7 @@ constexpr brume_layer_info layer_table[] = {
 };
 static_assert(std::size(layer_table) == layer_count);
 
-constexpr const char *used[] = {"lights", "gaussians", "density_rgb", "light_shadows"};
+constexpr const char *used[] = {"lights", "gaussians", "density_rgb", "light_shadows", "light_gaussians"};
 static_assert(std::size(used) == product_count);
 
 bool any(const float (&v)[3])
@@ -97,6 +99,34 @@ double operations_of(Method method, double followed)
 {
     const double on_top[] = {0, 1000, 400, 1e6};
     return 200 + on_top[size_t(method)] + followed * (method == Method::reference ? 1e6 : 1);
+}
+
+// How many Gaussians are about on the way from a light to a surface; those that come with the frames nobody knows.
+double gaussians_on_the_way(const brume_plugin_scene &scene)
+{
+    using namespace brume::maths_double;
+    if (!scene.gaussians || scene.light_count == 0)
+        return scene.gaussian_count;
+    const Medium medium = medium_of(scene);
+    vec3 low(1e30), high(-1e30);
+    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
+        const vec3 center = gaussian_of(scene.gaussians[i]).center;
+        low = min(low, center);
+        high = max(high, center);
+    }
+    const double across = length(high - low);
+    double sum = 0;
+    for (uint32_t l = 0; l < scene.light_count; ++l)
+        for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
+            const brume_plugin_light &light = scene.lights[l];
+            const Gaussian g = gaussian_of(scene.gaussians[i]);
+            const vec3 position(light.position[0], light.position[1], light.position[2]);
+            const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
+            const double reach = gaussian_reach(medium, g),
+                         sine = reach / std::max(parallel ? across + reach : length(g.center - position), reach);
+            sum += parallel ? sine * sine : 0.5 - 0.5 * std::sqrt(1 - sine * sine);
+        }
+    return sum / scene.light_count;
 }
 
 // NULL: it runs.
@@ -239,9 +269,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
                                                "the lights are placed in the world"))
         return s;
     const double pixels = double(state_->width) * state_->height, lights = scene_.light_count;
-    const bool followed = scene_.gaussian_count <= most_gaussians;
     const double of_light =
-        operations_of(state_->method, 30.0 * scene_.medium->term_count + (followed ? 20.0 * scene_.gaussian_count : 0));
+        operations_of(state_->method, 30.0 * scene_.medium->term_count + 30.0 * gaussians_on_the_way(scene_));
     if (brume_status s = plan_normals(pixels))
         return s;
     if (brume_status s = explain_material())
@@ -257,11 +286,12 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     if (brume_status s = plan_groups(pixels, of_light))
         return s;
-    if (!followed)
+    constexpr uint32_t most = brume::maths_float::most_gaussians_around;
+    if (state_->sky && scene_.gaussian_count > most)
         if (brume_status s =
                 entry(false, "gaussians",
-                      std::to_string(scene_.gaussian_count) + " Gaussians; between lights and surfaces at most " +
-                          std::to_string(most_gaussians) + " are followed",
+                      std::to_string(scene_.gaussian_count) + " Gaussians; between the sky and surfaces at most " +
+                          std::to_string(most) + " are followed, between lights and surfaces all",
                       0, 0))
             return s;
     if (brume_status s = entry(true, "compose", about(state_->method), pixels * (16 + 4 + 16 + 16),

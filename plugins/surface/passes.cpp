@@ -22,8 +22,8 @@ static_assert(std::size(normals_slots) == normals::slot_count);
 
 // In the order of shared::Slot.
 #define OF_ALL                                                                                                              \
-    fetch("depth"), fetch("normals"), fetch("lights"), fetch("ungrouped"), fetch("gaussians"), fetch("table"),              \
-        fetch("albedo")
+    fetch("depth"), fetch("normals"), fetch("lights"), fetch("ungrouped"), fetch("gaussians"), fetch("cells"),              \
+        fetch("cell_gaussians"), fetch("shadow_origins"), fetch("table"), fetch("albedo")
 #define OF_PARTS OF_ALL, fetch("specular"), fetch("roughness"), fetch("rest"), fetch("lit")
 #define OF_GROUPS fetch("group_0"), fetch("group_1"), fetch("group_2"), fetch("group_3")
 
@@ -113,7 +113,7 @@ public:
         constants_.settings.method = int32_t(state.method);
         constants_.settings.ground = state.ground;
         constants_.settings.light_count = int32_t(scene_.light_count);
-        constants_.settings.gaussian_count = scene_.gaussian_count <= most_gaussians ? int32_t(scene_.gaussian_count) : 0;
+        constants_.settings.gaussian_count = int32_t(scene_.gaussian_count);
         constants_.settings.environment_order = brume::maths_float::environment_order(scene_);
         const brume_plugin_layer &normal = frame.layers[layer_normal];
         constants_.settings.world_normals = normal.image && normal.kind == BRUME_LAYER_WORLD;
@@ -234,6 +234,9 @@ void Frame::bind_all(brume_plugin_image *images) const
     images[lights] = product(product_lights);
     images[ungrouped] = state_.ungrouped;
     images[gaussians] = product(product_gaussians);
+    images[cells] = product(product_light_gaussians, 1);
+    images[cell_gaussians] = product(product_light_gaussians, 2);
+    images[shadow_origins] = product(product_light_gaussians);
     images[table] = state_.table;
     images[albedo] = frame_.layers[layer_albedo].image;
 }

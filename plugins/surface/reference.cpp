@@ -59,7 +59,7 @@ struct World {
     std::vector<Light> lights;
 };
 
-// lit_by_lamp() of the other methods.
+// What change_by_light() and becomes() are of the other methods.
 vec3 lit_by_quadrature(const World &world, const Surface &surface, Light lamp, const Material &material, vec3 own)
 {
     const vec3 way = lamp.position - surface.point;

@@ -21,13 +21,17 @@ enum Layer {
     layer_surface,
     layer_count
 };
-enum Product { product_lights, product_gaussians, product_density_rgb, product_light_shadows, product_count };
+enum Product {
+    product_lights,
+    product_gaussians,
+    product_density_rgb,
+    product_light_shadows,
+    product_light_gaussians,
+    product_count
+};
 
 // Of the data images.
 enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_turned, upload_table };
-
-// Of more Gaussians than these the light's way is not followed through: each costs every pixel and lamp.
-constexpr uint32_t most_gaussians = 256;
 
 // A pass for what scenes of the plan are without (SurfaceSettings::without), from the most to what fits all.
 struct Variants {

@@ -7,10 +7,11 @@
 //     0, 1  directional lights: the axes of the grid, a plane across the light. The cell's coordinates are
 //           dot(xyz, point) + w, 0 to 1 across the grid; points outside of it meet no Gaussian. Unused otherwise.
 //     2     x the index of its first cell in `cells`, y its grid
-//   cells           1 texel per cell, row by row: x the first and y the number of its entries in cell_gaussians
-//   cell_gaussians  one channel: indices of Gaussians
+//   cells           1 texel per cell, row by row: its list, as listed.glsl has it with cell_gaussians
 // Cells of the camera, of points and of spots are those of octahedral() of the direction from the origin in world axes, so
 // that lights' lists outlive a turn of the camera.
+#include "listed.glsl"
+
 #define SHADOW_IMAGES sampler2D gaussians, sampler2D cells, sampler2D cell_gaussians, sampler2D shadow_origins
 #define SHADOW_PASSED gaussians, cells, cell_gaussians, shadow_origins
 
@@ -19,29 +20,6 @@ PURE int cell_of(vec2 square, int grid)
     int x = clamp(int(square.x * float(grid)), 0, grid - 1);
     int y = clamp(int(square.y * float(grid)), 0, grid - 1);
     return y * grid + x;
-}
-
-PURE float listed_density(sampler2D gaussians, sampler2D cells, sampler2D cell_gaussians, int cell, vec3 point,
-                          vec3 direction, float distance)
-{
-    vec4 list = data_texel(cells, cell);
-    int first = int(list.x);
-    int count = int(list.y);
-    float sum = R(0.0);
-    // Four at a time: Mesa's software GL ends all loops of an invocation after 65,535 turns.
-    for (int i = 0; i < count; i += 4)
-        for (int k = 0; k < 4; ++k) {
-            int entry = first + min(i + k, count - 1);
-            Gaussian g = gaussian_at(gaussians, int(data_texel(cell_gaussians, entry).x));
-            // Most of a list is passed at a distance: a millionth of a Gaussian's depth is beyond.
-            vec3 b = g.center - point;
-            float middle = dot(b, direction);
-            float beyond = max(max(middle - distance, -middle), R(0.0));
-            vec3 aside = cross(direction, b);
-            if (i + k < count && g.scale * g.scale * dot(aside, aside) < R(14.0) && g.scale * beyond < R(3.5))
-                sum += profile_depth(profile_along(g, point, direction), R(0.0), distance);
-        }
-    return min(sum, density_limit);
 }
 
 // From the point toward the origin, since what stands near the point is what must be placed precisely.

@@ -77,9 +77,8 @@ PURE Arrived arrived_of(IN(SurfaceSettings) settings, sampler2D table, float sca
 }
 
 PURE Change change_as_published(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
-                                IN(Material) material, IN(Shine) shine, sampler2D gaussians, sampler2D table)
+                                IN(Material) material, IN(Shine) shine, float p, sampler2D table)
 {
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     Facing facing = facing_of(surface, light, material, shine, true);
     Arrived red = arrived_of(settings, table, medium.scattering.x, medium.absorption.x, p, facing, material, shine);
     Arrived green = red;
@@ -93,25 +92,16 @@ PURE Change change_as_published(IN(Medium) medium, IN(SurfaceSettings) settings,
 
 // What becomes of a light's part of the picture; of suns by method calibrated alone, else theirs stays as it is.
 PURE Change change_by_light(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                            IN(Light) light, IN(Material) material, IN(Shine) shine, sampler2D gaussians, sampler2D table)
+                            IN(Light) light, IN(Material) material, IN(Shine) shine, float p, sampler2D table)
 {
     if (settings.method == method_calibrated) {
         if (is_sun(settings, light))
-            return change_by_sun(medium, settings, surface, light, material, shine, gaussians);
-        return change_by_lamp(medium, colours, settings, surface, light, material, shine, gaussians);
+            return change_by_sun(medium, settings, surface, light, material, shine, p);
+        return change_by_lamp(medium, colours, settings, surface, light, material, shine, p);
     }
     if (is_sun(settings, light))
         return scaled_by(vec3(R(1.0)));
-    return change_as_published(medium, settings, surface, light, material, shine, gaussians, table);
-}
-
-PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light, IN(Material) material,
-                      sampler2D gaussians, sampler2D table, vec3 own)
-{
-    SurfaceSettings around = settings;
-    around.material = 2;
-    return becomes(change_by_light(medium, lamp_colours(medium), around, surface, light, material, shine_of(surface, material),
-                                   gaussians, table), own);
+    return change_as_published(medium, settings, surface, light, material, shine, p, table);
 }
 
 // The environment's part of the picture after, by method psf: eq. 27 with a lobe of Phong for the rest of what reflects. Without a
@@ -119,7 +109,7 @@ PURE vec3 lit_by_lamp(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surfac
 PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D gaussians,
                              sampler2D environment, sampler2D table, IN(Surface) surface, IN(Material) material, vec3 own)
 {
-    float p = mean_density_around(medium, camera, table, gaussians, settings.gaussian_count, surface.point);
+    float p = mean_density_around(medium, camera, table, gaussians, gaussians_around(settings), surface.point);
     if (p < R(0.0) || surface.normal == vec3(R(0.0)))
         return own;
     vec3 normal = in_world(camera, surface.normal);
@@ -170,16 +160,15 @@ PURE float sent_by_psf(sampler2D table, float scattering, float absorption, IN(S
 
 // Radiance for albedo 1 of what the medium brings of a light; of suns by method calibrated alone.
 PURE vec3 sent_of_light(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings,
-                        IN(Surface) surface, IN(Light) light, IN(Transfer) transfer, sampler2D gaussians, sampler2D table)
+                        IN(Surface) surface, IN(Light) light, IN(Transfer) transfer, float p, sampler2D table)
 {
     if (settings.method == method_calibrated) {
         if (is_sun(settings, light))
-            return sent_of_sun(medium, camera, settings, surface, light, transfer, gaussians);
-        return sent_of_one_lamp(medium, colours, camera, settings, surface, light, transfer, gaussians);
+            return sent_of_sun(medium, camera, settings, surface, light, transfer, p);
+        return sent_of_one_lamp(medium, colours, camera, settings, surface, light, transfer, p);
     }
     if (is_sun(settings, light))
         return vec3(R(0.0));
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     Sent sent = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, way_to(surface, light)),
                             cosine_to(surface, light));
     vec3 sum = vec3(R(0.0));
@@ -199,7 +188,7 @@ PURE vec3 sent_of_sky(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) 
 {
     if (settings.environment_order == 0 || settings.method != method_psf)
         return vec3(R(0.0));
-    float p = mean_density_around(medium, camera, table, gaussians, settings.gaussian_count, surface.point);
+    float p = mean_density_around(medium, camera, table, gaussians, gaussians_around(settings), surface.point);
     if (p < R(0.0))
         return vec3(R(0.0));
     int given = min(settings.transfer, settings.environment_order);

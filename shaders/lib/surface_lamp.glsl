@@ -1,4 +1,4 @@
-// What of a lamp's light surfaces receive through the medium, by method `calibrated`. Needs lamp_medium.glsl, gaussian.glsl, lit.glsl.
+// What of a lamp's light surfaces receive through the medium, by method `calibrated`. Needs lamp_medium.glsl, shadow.glsl, lit.glsl.
 //
 // A lamp gives a plane that takes all that falls on it, under the cosine c at r, in clear air I c / r^2, and in the medium
 //   I / r^2 [ N(x) c + (1 - a) (h' x^2 / x'^3 N(x') + k x / (1 + (10.7 - 4.3 g) x^2) N(x)) ],  x = s' r,  a = sigma_a / s',
@@ -59,7 +59,7 @@ PURE float received_share(float scattering, float absorption, float asymmetry, f
 struct SurfaceSettings {
     int method;
     int light_count;
-    int gaussian_count;
+    int gaussian_count;  // of the scene
     int environment_order;
     int world_normals;
     int material;  // how much of it frames bring: 1 albedo, 2 also specular and roughness
@@ -145,19 +145,13 @@ PURE vec3 clear_irradiance(IN(Surface) surface, IN(Light) light)
     return min(min(strength, radiance_limit) * light.intensity, vec3(radiance_limit));
 }
 
-// int rho dt between a surface and a lamp.
-PURE float density_to_lamp(IN(Medium) medium, IN(Surface) surface, IN(Light) light, sampler2D gaussians, int gaussian_count)
+// int rho dt between a surface and a light, `index` of all.
+PURE float density_to_lamp(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, IN(Surface) surface, int index,
+                           IN(Light) light, SHADOW_IMAGES)
 {
-    vec3 way = light.position - surface.point;
-    float distance = length(way);
-    vec3 direction = way / max(distance, R(1e-20));
-    if (light.type == light_directional) {
-        distance = far_away;
-        direction = -light.direction;
-    }
     float p = terms_to_light(medium, light, surface.point);
-    for (int i = 0; i < gaussian_count; ++i)
-        p += profile_depth(profile_along(gaussian_at(gaussians, i), surface.point, direction), R(0.0), distance);
+    if (settings.gaussian_count > 0)
+        p += shadow_density(SHADOW_PASSED, camera, index, light, surface.point);
     return clamp(p, R(0.0), density_limit);
 }
 
@@ -194,10 +188,8 @@ PURE float share_of_lamp_in(IN(LampMedium) colour, float g, float p, float cosin
 }
 
 // received_share() of each colour.
-PURE vec3 share_of_lamp(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                        IN(Light) light, sampler2D gaussians)
+PURE vec3 share_of_lamp(IN(Medium) medium, IN(LampColours) colours, IN(Surface) surface, IN(Light) light, float p)
 {
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     float cosine = cosine_to(surface, light);
     float g = colours.asymmetry;
     vec3 share = vec3(share_of_lamp_in(colours.red, g, p, cosine));
@@ -381,13 +373,13 @@ PURE vec3 becomes(IN(Change) change, vec3 own)
     return min((own - highlight) * change.along + highlight * change.kept + change.brought, vec3(radiance_limit));
 }
 
+// p: density_to_lamp(), as of change_by_sun().
 PURE Change change_by_lamp(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                           IN(Light) light, IN(Material) material, IN(Shine) shine, sampler2D gaussians)
+                           IN(Light) light, IN(Material) material, IN(Shine) shine, float p)
 {
     if (!some(material.known))
-        return scaled_by(share_of_lamp(medium, colours, settings, surface, light, gaussians));
+        return scaled_by(share_of_lamp(medium, colours, surface, light, p));
     bool glossy = settings.material > 1;
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     Facing facing = facing_of(surface, light, material, shine, glossy);
     float g = colours.asymmetry;
     Arrived red = arrived_of_lamp(colours.red, g, p, facing, shine, glossy);

@@ -1,8 +1,8 @@
 // Pixels whose lights' parts are known, or shared out. Needs what surface.glsl says of each light: change_by_light(), lit_by_map(),
 // sent_of_light(), and of the sky: sky_irradiance(), sky_change(), sent_of_sky(). Of lamps alone pixels of a row may go side by side.
 
-#define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D gaussians, sampler2D environment, sampler2D table
-#define SURFACE_PASSED lights, ungrouped, gaussians, environment, table
+#define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, SHADOW_IMAGES, sampler2D environment, sampler2D table
+#define SURFACE_PASSED lights, ungrouped, SHADOW_PASSED, environment, table
 
 // Loops over lights are asked at their end: software OpenGL goes through a loop's body once more, for no pixel, after one that is asked at
 // its begin.
@@ -38,7 +38,8 @@ PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) c
             vec3 irradiance = ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l);
             all = min(all + irradiance, vec3(radiance_limit));
             if (!glossy) {
-                Change change = change_by_light(medium, colours, settings, surface, light, material, shine, gaussians, table);
+                float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
+                Change change = change_by_light(medium, colours, settings, surface, light, material, shine, p, table);
                 changed += irradiance * (change.along - vec3(R(1.0)));
                 brought += change.brought;
             }
@@ -54,7 +55,8 @@ PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) c
                 continue;
             Light light = surface_light(settings, lights, l);
             vec3 own = rest * (ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l) * scale);
-            change += becomes(change_by_light(medium, colours, settings, surface, light, material, shine, gaussians, table), own) - own;
+            float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
+            change += becomes(change_by_light(medium, colours, settings, surface, light, material, shine, p, table), own) - own;
         } while (++l < count);
     return max(rest + change, min(rest, vec3(R(0.0))));
 }
@@ -74,16 +76,19 @@ struct Divided {
     vec3 lit;
 };
 
-// group: the lamp's own layer of the picture.
-PURE Divided divided_by_group(IN(Medium) medium, IN(LampColours) colours, IN(SurfaceSettings) settings, IN(Surface) surface,
-                              IN(Light) light, IN(Material) material, IN(Shine) shine, sampler2D gaussians, sampler2D table,
-                              IN(Divided) pixel, vec3 group)
+// group: light l's own layer of the picture.
+PURE Divided divided_by_group(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings,
+                              IN(Surface) surface, IN(Material) material, IN(Shine) shine, sampler2D lights, SHADOW_IMAGES,
+                              sampler2D table, IN(Divided) pixel, int l, vec3 group)
 {
     vec3 own = finite_or_zero(group);
     vec3 lit = own;
-    if (some(surface.seen))
+    if (some(surface.seen)) {
+        Light light = surface_light(settings, lights, l);
+        float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
         lit = chosen(surface.seen,
-                     becomes(change_by_light(medium, colours, settings, surface, light, material, shine, gaussians, table), own), own);
+                     becomes(change_by_light(medium, colours, settings, surface, light, material, shine, p, table), own), own);
+    }
     return Divided(pixel.rest - own, min(pixel.lit + lit, vec3(radiance_limit)));
 }
 
@@ -108,9 +113,11 @@ PURE vec3 brought_by_transfer(IN(Medium) medium, IN(LampColours) colours, IN(Cam
         return vec3(R(0.0));
     vec3 sum = sent_of_sky(medium, camera, settings, gaussians, environment, in_axes, table, surface, transfer);
     for (int l = 0; l < settings.light_count; ++l)
-        if (int(data_texel(ungrouped, l).x) != part_none)
-            sum += sent_of_light(medium, colours, camera, settings, surface, surface_light(settings, lights, l), transfer, gaussians,
-                                 table);
+        if (int(data_texel(ungrouped, l).x) != part_none) {
+            Light light = surface_light(settings, lights, l);
+            float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
+            sum += sent_of_light(medium, colours, camera, settings, surface, light, transfer, p, table);
+        }
     return chosen(there, min(reflectance(albedo) * sum, vec3(radiance_limit)), vec3(R(0.0)));
 }
 

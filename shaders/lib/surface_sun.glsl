@@ -81,11 +81,10 @@ PURE Change change_of_arrived(IN(Surface) surface, IN(Light) light, IN(Material)
 }
 
 PURE Change change_by_sun(IN(Medium) medium, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
-                          IN(Material) material, IN(Shine) shine, sampler2D gaussians)
+                          IN(Material) material, IN(Shine) shine, float p)
 {
     bool glossy = some(material.known) && settings.material > 1;
     SunSlant slant = sun_slant(medium, light.direction, surface.point);
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     Facing facing = facing_of(surface, light, material, shine, glossy);
     SunFacing lies = surface_below_sun(surface, light, slant);
     SunFacing mirrored = below_sun(clamp(dot(shine.mirrored, slant.up), R(-1.0), R(1.0)), -dot(shine.mirrored, light.direction), slant);
@@ -118,6 +117,14 @@ PURE vec3 environment_irradiance(sampler2D environment, int order, vec3 normal)
         sum += R(0.4290427655) * (normal.x * normal.x - normal.y * normal.y) * vec3(data_texel(environment, 8));
     }
     return max(sum, vec3(R(0.0)));
+}
+
+// More of them are not followed on the sky's ways, where each costs every pixel.
+const int most_gaussians_around = 256;
+
+PURE int gaussians_around(IN(SurfaceSettings) settings)
+{
+    return settings.gaussian_count > most_gaussians_around ? 0 : settings.gaussian_count;
 }
 
 // Whether the medium ends on the way up, so that it is known how much of it there is.
@@ -170,7 +177,7 @@ PURE vec3 environment_share(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSett
     if (!some(known))
         return vec3(R(1.0));
     vec3 normal = chosen(has_normal(surface), surface.normal, up);
-    float p = density_above(medium, camera, gaussians, settings.gaussian_count, surface.point, up);
+    float p = density_above(medium, camera, gaussians, gaussians_around(settings), surface.point, up);
     vec3 clear = environment_irradiance(environment, settings.environment_order, in_world(camera, normal));
     vec3 above = environment_irradiance(environment, settings.environment_order, in_world(camera, up));
     vec3 below = environment_irradiance(environment, settings.environment_order, in_world(camera, -up));
@@ -214,13 +221,12 @@ PURE float sent_of_sun_in(IN(SurfaceSettings) settings, float scattering, float 
 
 // Radiance for albedo 1 of what the medium brings of a sun.
 PURE vec3 sent_of_sun(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, IN(Surface) surface, IN(Light) light,
-                      IN(Transfer) transfer, sampler2D gaussians)
+                      IN(Transfer) transfer, float p)
 {
     SunSlant slant = sun_slant(medium, light.direction, surface.point);
     Sent above = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, slant.up), cosine_up(surface, slant.up));
     float of_sun = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, -light.direction),
                                cosine_to(surface, light)).of[1];
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     float g = medium.asymmetry;
     vec3 sent = vec3(sent_of_sun_in(settings, depth_of(medium.scattering.x, p), depth_of(medium.absorption.x, p), g, slant.cosine, above,
                                     of_sun));

@@ -102,9 +102,8 @@ PURE vec3 sent_of_irradiance(IN(Surface) surface, IN(Light) light, vec3 share)
 
 // Radiance for albedo 1 of what the medium brings of a lamp by method calibrated.
 PURE vec3 sent_of_one_lamp(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings,
-                           IN(Surface) surface, IN(Light) light, IN(Transfer) transfer, sampler2D gaussians)
+                           IN(Surface) surface, IN(Light) light, IN(Transfer) transfer, float p)
 {
-    float p = density_to_lamp(medium, surface, light, gaussians, settings.gaussian_count);
     float cosine = cosine_to(surface, light);
     Sent sent = sent_toward(transfer, settings.transfer, in_transfer_axes(camera, settings, way_to(surface, light)), cosine);
     vec3 all = vec3(sent_of_lamp(colours.red, colours.asymmetry, p, sent, cosine));

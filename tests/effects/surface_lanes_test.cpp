@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gaussians/light_gaussians.h"
 #include "lanes.hpp"
 #include "scene_maths.hpp"
 
@@ -27,7 +28,7 @@ struct Map {
 struct Relit {
     brume_plugin_scene scene{};
     f32::SurfaceSettings settings{};
-    std::vector<float> lights, ungrouped, gaussians, environment, light_shadows;
+    std::vector<float> lights, ungrouped, gaussians, cells, cell_gaussians, shadow_origins, environment, light_shadows;
     Map shadow_map;
     float row = 300.5f;
     std::vector<float> column, depth, roughness;
@@ -137,11 +138,13 @@ public:
         for (int l = 0; l < 4; ++l)
             push(r.ungrouped, {float(f32::part_ungrouped), 0, 0, 0});
         if (density == 1) {
-            r.settings.gaussian_count = 2;
             push(r.gaussians, {0, 0, -6, 0.5f, 0.8f, 1, 1, 1});
             push(r.gaussians, {3, 1, -20, 0.1f, 0.2f, 1, 1, 1});
+            for (int i = 0; i < 40; ++i)
+                push(r.gaussians, {float(i % 7) - 3, float(i % 5) - 2, -5 - float(i), 1, 0.1f, 1, 1, 1});
         }
-        r.gaussians.resize(16);
+        list(r);
+        r.gaussians.resize(r.gaussians.size() + 16);
         for (int i = 0; i < 9; ++i)
             push(r.environment,
                  {i == 0 ? 1.2f : 0.1f * float(i % 4), i == 0 ? 1.0f : -0.05f * float(i), i == 0 ? 0.9f : 0.2f, 0});
@@ -158,6 +161,29 @@ public:
     }
 
 private:
+    static void list(Relit &r)
+    {
+        static_assert(sizeof(brume_plugin_gaussian) == 8 * sizeof(float));
+        std::vector<brume_plugin_gaussian> gaussians(r.gaussians.size() / 8);
+        std::vector<brume_plugin_light> lights(r.lights.size() / 16);
+        for (size_t i = 0; i < gaussians.size(); ++i)
+            std::memcpy(&gaussians[i], &r.gaussians[8 * i], 8 * sizeof(float));
+        for (size_t l = 0; l < lights.size(); ++l) {
+            std::memcpy(lights[l].position, &r.lights[16 * l], 16 * sizeof(float));
+        }
+        brume_plugin_scene scene = r.scene;
+        scene.gaussians = gaussians.data();
+        scene.gaussian_count = uint32_t(gaussians.size());
+        scene.lights = lights.data();
+        scene.light_count = uint32_t(lights.size());
+        r.settings.gaussian_count = int(gaussians.size());
+        brume::LightGaussians lists;
+        lists.refresh(scene, true, false);
+        r.shadow_origins = lists.origins;
+        r.cells = lists.cells;
+        for (float g : lists.cell_gaussians)
+            push(r.cell_gaussians, {g, 0, 0, 0});
+    }
     static void fill(Relit &r, std::mt19937 &random)
     {
         constexpr size_t pixels = 96;

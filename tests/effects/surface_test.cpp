@@ -122,6 +122,33 @@ TEST_P(SurfaceOn, DroppedWhereThereIsNothingToDo)
     EXPECT_NE(run(context(), relit_scene(coloured, lamps).dump(), frame.color, frame.depth).output.data, frame.color.data);
 }
 
+// A cloud about the ways from the lights, and a larger one elsewhere that is nothing to them.
+TEST_P(SurfaceOn, AnyNumberOfGaussiansLiesOnTheWayFromLights)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> u(0, 1);
+    Json near = Json::array();
+    for (int i = 0; i < 200; ++i)
+        near.push_back(gaussian({6 * u(random) - 3, 4 * u(random) - 2, -4 - 8 * u(random)}, 1 + u(random), 0.3 * u(random)));
+    Json all = near;
+    for (int i = 0; i < 800; ++i)
+        all.push_back(gaussian({200 + 6 * u(random), 4 * u(random), -4 - 8 * u(random)}, 1 + u(random), 0.3));
+    const Json sun{{"type", "directional"}, {"direction", {0.3, -1, -0.4}}, {"intensity", 3}};
+    const Frame frame = lit_frame(24, 16);
+    for (const Json &light : {lamps[0], sun})
+        for (const bool known : {false, true}) {
+            const std::map<std::string, Picture> layers{{"albedo", random_picture(24, 16, 3)}};
+            auto with = [&](const Json &gaussians) {
+                return relit(context(), relit_scene({{"scattering", 1}, {"density", gaussians}}, Json::array({light})),
+                             frame.color, frame.depth, known ? layers : std::map<std::string, Picture>{});
+            };
+            const Picture few = with(near), many = with(all);
+            const Worst worst = compare(many, few, 0.05);
+            EXPECT_LT(worst.error, 1e-5) << light << worst.describe();
+            EXPECT_GT(compare(few, frame.color, 0.05).error, 0.1) << light;
+        }
+}
+
 // A lamp behind the camera, whose map looks the same way and has something before the left half of the wall. Where nothing
 // but the lamp is known to light the picture, nothing is known of what is in its shadow.
 TEST_P(SurfaceOn, WhatIsInALightsShadowHasNoShareOfIt)
@@ -325,7 +352,12 @@ struct Lit {
     f64::vec3 diffuse() const { return material.albedo / f64::pi * f64::clear_irradiance(surface, lamp); }
     f64::vec3 becomes(const f64::vec3 &own) const
     {
-        return f64::lit_by_lamp(medium, settings, surface, lamp, material, {}, {}, own);
+        f64::SurfaceSettings around = settings;
+        around.material = 2;
+        return f64::becomes(f64::change_by_light(medium, f64::lamp_colours(medium), around, surface, lamp, material,
+                                                 f64::shine_of(surface, material),
+                                                 f64::terms_to_light(medium, lamp, surface.point), {}),
+                            own);
     }
 };
 
