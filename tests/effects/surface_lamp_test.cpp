@@ -1,5 +1,4 @@
-// What lamps give surfaces, as the CPU and shaders work it out: for pixels side by side, with what media settle taken out of
-// it.
+// What lamps give surfaces, as the CPU and shaders work it out, with what media settle taken out of it.
 #include <cmath>
 #include <limits>
 #include <random>
