@@ -93,8 +93,10 @@ void HostProducts::plan(brume_host_t &host, const std::vector<std::string> &uses
                 host.add_entry({sizeof(brume_plugin_entry), 0, "gaussians", reason.c_str(), 0, 0});
             }
         }
+        // The CPU goes through lists by rows of pixels.
+        const double of_pixel = host.backend_kind() == BRUME_BACKEND_CPU ? 80 + 8 * length : 10 + 40 * length;
         host.add_entry({sizeof(brume_plugin_entry), 1, "gaussians", "density of the Gaussians along each pixel's ray",
-                        uint64_t(pixels * (4 + 8)), uint64_t(pixels * (10 + 40 * length))});
+                        uint64_t(pixels * (4 + 8)), uint64_t(pixels * of_pixel)});
         gaussian_pass_ = make_pass(host, "gaussians", "gaussian_density.comp", "", gaussian_slots, gaussian_density_rows());
     }
     if (!used("density"))

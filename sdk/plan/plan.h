@@ -84,6 +84,7 @@ public:
     brume_plugin_image create_image(const char *label, int32_t width, int32_t height, int32_t channels);
     void drop_image(brume_plugin_image image);
     int32_t largest_size() const { return context_->backend->largest_size(); }
+    uint32_t backend_kind() const { return context_->backend->kind(); }
     brume_pass create_pass(const brume_pass_desc &desc);
     uint32_t made(std::string_view product) const;
     brume_status run(brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
