@@ -203,7 +203,11 @@ PURE vec3 scattered_light(IN(Medium) medium, IN(Calibrated) f, sampler2D table, 
     float octaves = octaves_of(p);
     vec3 own = staying(table, 0, spread_place(f, octaves)) * arrived_share(medium, f, p, octaves, share);
     vec3 coverage = own + levels.coverage;
+    vec3 light = own * shown * finite_or_zero(color) + levels.radiance;
+    // Beside a lamp the levels take what lies far behind it for as near as the lamp, and can have more than there is room for.
+    // What is too much is as bright as the surroundings; to take it in proportion would take it from the lamp. That is done in
+    // front of things so near that there is room for next to nothing, where too much is what lamps behind them shine through.
     vec3 kept = min(share / max(coverage, vec3(R(1e-35))), vec3(R(1.0)));
-    return kept * (own * shown * finite_or_zero(color) + levels.radiance) +
-           max(share - coverage, vec3(R(0.0))) * around;
+    vec3 least = kept * light + max(share - coverage, vec3(R(0.0))) * around;
+    return least + min(R(32.0) * share, vec3(R(1.0))) * max(light + (share - coverage) * around - least, vec3(R(0.0)));
 }

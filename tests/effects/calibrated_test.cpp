@@ -233,6 +233,32 @@ TEST_P(Calibrated, AnySizeShowsAsMuchLight)
     }
 }
 
+// A lamp gives the fog as much light before a far dark background as before one as near as itself.
+TEST_P(Calibrated, WhatIsBehindALampTakesNoneOfItsLight)
+{
+    const int w = 240, h = 160;
+    for (const char *medium : {"\"scattering\":0.06,\"g\":0.8", "\"scattering\":0.06,\"absorption\":0.01,\"g\":0.8",
+                               "\"scattering\":0.02,\"g\":0"})
+        for (double radius : {3, 12, 30})
+            for (const char *quality : {"", ",\"lobes\":\"every\"", ",\"resolution\":\"half\""}) {
+                auto light = [&](float behind) {
+                    Picture color(w, h, 4, 0), depth(w, h, 1, behind);
+                    for (int y = 0; y < h; ++y)
+                        for (int x = 0; x < w; ++x)
+                            if (std::hypot(x + 0.5 - w / 2, y + 0.5 - h / 2) < radius) {
+                                color.at(x, y)[0] = 10;
+                                depth.at(x, y)[0] = 3;
+                            }
+                    return scattered_sum(
+                        run(context(), scene(medium, kernel + quality), color, depth, {{}, {"scattered"}, 0}));
+                };
+                const double near = light(3);
+                for (float behind : {6.0f, 20.0f, 60.0f, 200.0f})
+                    EXPECT_NEAR(light(behind) / near, 1, 0.01)
+                        << medium << quality << ", radius " << radius << ", " << behind << " m";
+            }
+}
+
 // Light reaches a near surface's pixel only through the medium in front of it.
 TEST_P(Calibrated, FarLightsDoNotShineThroughNearSurfaces)
 {

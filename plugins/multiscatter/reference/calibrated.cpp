@@ -234,8 +234,11 @@ void CalibratedSplatting::add_rows(const ReferenceFrame &frame, int first, int l
                 }
             const Pixel pixel = frame.pixel_at(x, y);
             const vec3 kept = min(pixel.share / max(coverage, vec3(1e-35)), vec3(1));
+            const vec3 surroundings = around(frame, x, y, pixel.density);
+            const vec3 least = kept * light + max(pixel.share - coverage, vec3(0)) * surroundings;
             sum[frame.index(x, y - first)] =
-                kept * light + max(pixel.share - coverage, vec3(0)) * around(frame, x, y, pixel.density);
+                least +
+                min(32.0 * pixel.share, vec3(1)) * max(light + (pixel.share - coverage) * surroundings - least, vec3(0));
         }
 }
 
