@@ -245,7 +245,8 @@ TEST(LanesOfSurfaces, AreWhatEachPixelIsAlone)
                                     << ", shadows " << shadows;
                                 changed += i % 6 < 3 && std::abs(alone[i] - frame.source[i % 6][i / 6]) > 0.01f;
                             }
-                            if (density < 2)
+                            if (density < 2) {
                                 EXPECT_GT(changed, 50u);
+                            }
                         }
 }
