@@ -17,17 +17,16 @@ struct Pass {
     scalar::Medium medium;
     scalar::Camera camera;
     scalar::ivec2 light_range;
-    scalar::Texture depth, gaussian_density, tiles, gaussians, lights, tile_gaussians, cells, cell_gaussians, shadow_origins,
-        blob_density, sun_table, surroundings, environment, environment_table, light_shadows, shadow_maps;
+    scalar::Texture depth, gaussian_density, tiles, gaussians, lights, tile_gaussians, light_gaussians, blob_density,
+        sun_table, surroundings, environment, environment_table, light_shadows, shadow_maps;
     bool green_as_red, blue_as_green;
 
     explicit Pass(const brume_plugin_rows &call)
         : constants(*static_cast<const Constants *>(call.constants)), settings(constants.airlight),
           medium(scalar::medium_of(*call.scene)), camera(scalar::camera_of(*call.scene)), light_range(constants.light_range)
     {
-        scalar::Texture *const textures[] = {&depth,          &gaussian_density,  &tiles,         &gaussians,
-                                             &lights,         &tile_gaussians,    &cells,         &cell_gaussians,
-                                             &shadow_origins, &blob_density,      &sun_table,     &surroundings,
+        scalar::Texture *const textures[] = {&depth,          &gaussian_density,  &tiles,         &gaussians,  &lights,
+                                             &tile_gaussians, &light_gaussians,   &blob_density,  &sun_table,  &surroundings,
                                              &environment,    &environment_table, &light_shadows, &shadow_maps};
         static_assert(gather::depth == 0 && gather::shadow_maps + 1 == std::size(textures));
         for (size_t i = 0; i < std::size(textures); ++i)
@@ -40,8 +39,7 @@ struct Pass {
 
 [[gnu::noinline]] float shadow_at(const Pass &pass, int index, const scalar::Light &light, const scalar::vec3 &point)
 {
-    return scalar::shadow_density(pass.gaussians, pass.cells, pass.cell_gaussians, pass.shadow_origins, pass.camera, index,
-                                  light, point);
+    return scalar::shadow_density(pass.light_gaussians, pass.camera, index, light, point);
 }
 
 [[gnu::noinline]] scalar::ShadowRay shadow_of(const Pass &pass, int light, const scalar::Sight &sight, float reach)
@@ -68,10 +66,9 @@ struct Pass {
 [[gnu::noinline]] scalar::Airlight dense_at(const Pass &pass, const scalar::Sight &sight)
 {
     using namespace brume::maths_float;
-    const Texture &gaussians = pass.gaussians, &cells = pass.cells, &cell_gaussians = pass.cell_gaussians,
-                  &shadow_origins = pass.shadow_origins, &lights = pass.lights, &tile_gaussians = pass.tile_gaussians,
-                  &blob_density = pass.blob_density, &sun_table = pass.sun_table, &surroundings = pass.surroundings,
-                  &light_shadows = pass.light_shadows, &shadow_maps = pass.shadow_maps;
+    const Texture &gaussians = pass.gaussians, &light_gaussians = pass.light_gaussians, &lights = pass.lights,
+                  &tile_gaussians = pass.tile_gaussians, &blob_density = pass.blob_density, &sun_table = pass.sun_table,
+                  &surroundings = pass.surroundings, &light_shadows = pass.light_shadows, &shadow_maps = pass.shadow_maps;
     return airlight_by_cells(pass.medium, pass.camera, pass.settings, AIRLIGHT_PASSED, sight, pass.light_range.x,
                              pass.light_range.y);
 }
@@ -82,10 +79,9 @@ struct Pass {
 {
     using namespace brume::maths_float;
     const AirlightSettings &settings = pass.settings;
-    const Texture &gaussians = pass.gaussians, &cells = pass.cells, &cell_gaussians = pass.cell_gaussians,
-                  &shadow_origins = pass.shadow_origins, &lights = pass.lights, &tile_gaussians = pass.tile_gaussians,
-                  &blob_density = pass.blob_density, &sun_table = pass.sun_table, &surroundings = pass.surroundings,
-                  &light_shadows = pass.light_shadows, &shadow_maps = pass.shadow_maps;
+    const Texture &gaussians = pass.gaussians, &light_gaussians = pass.light_gaussians, &lights = pass.lights,
+                  &tile_gaussians = pass.tile_gaussians, &blob_density = pass.blob_density, &sun_table = pass.sun_table,
+                  &surroundings = pass.surroundings, &light_shadows = pass.light_shadows, &shadow_maps = pass.shadow_maps;
     if (settings.orders == orders_all && sight.count <= settings.dense_from) {
         const Airlight again = orders_by_parts(pass.medium, pass.camera, settings, AIRLIGHT_PASSED, sight,
                                                pass.light_range.x, pass.light_range.y, total.radiance);

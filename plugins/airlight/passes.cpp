@@ -16,23 +16,17 @@ namespace {
 using namespace brume_passes;
 using brume::maths_float::ivec2;
 
-constexpr brume_slot blobs_slots[] = {fetch("gaussians"),      fetch("lights"),         fetch("cells"),
-                                      fetch("cell_gaussians"), fetch("shadow_origins"), write("density")};
+constexpr brume_slot blobs_slots[] = {fetch("gaussians"), fetch("lights"), fetch("light_gaussians"), write("density")};
 static_assert(std::size(blobs_slots) == blobs::slot_count);
 
 constexpr brume_slot around_slots[] = {fetch("depth"), fetch("lights"), write("surroundings")};
 static_assert(std::size(around_slots) == around::slot_count);
 
-constexpr brume_slot gather_slots[] = {fetch("depth"),          fetch("gaussian_density"),
-                                       fetch("tiles"),          fetch("gaussians"),
-                                       fetch("lights"),         fetch("tile_gaussians"),
-                                       fetch("cells"),          fetch("cell_gaussians"),
-                                       fetch("shadow_origins"), fetch("blob_density"),
-                                       fetch("sun_table"),      fetch("surroundings"),
-                                       fetch("environment"),    fetch("environment_table"),
-                                       fetch("light_shadows"),  fetch("shadow_maps"),
-                                       write("radiance"),       write("error"),
-                                       write("distances")};
+constexpr brume_slot gather_slots[] = {
+    fetch("depth"),          fetch("gaussian_density"),  fetch("tiles"),         fetch("gaussians"),   fetch("lights"),
+    fetch("tile_gaussians"), fetch("light_gaussians"),   fetch("blob_density"),  fetch("sun_table"),   fetch("surroundings"),
+    fetch("environment"),    fetch("environment_table"), fetch("light_shadows"), fetch("shadow_maps"), write("radiance"),
+    write("error"),          write("distances")};
 static_assert(std::size(gather_slots) == gather::slot_count);
 
 constexpr brume_slot compose_slots[] = {fetch("color"),
@@ -120,9 +114,7 @@ brume_status Frame::blobs()
     brume_plugin_image images[slot_count] = {};
     images[gaussians] = product(product_gaussians);
     images[lights] = product(product_lights);
-    images[cells] = product(product_light_gaussians, 1);
-    images[cell_gaussians] = product(product_light_gaussians, 2);
-    images[shadow_origins] = product(product_light_gaussians);
+    images[light_gaussians] = product(product_light_gaussians);
     images[density] = state_.blob_density;
     return services_.run(host_, state_.blobs, images, &constants_, BRUME_DATA_WIDTH,
                          (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, nullptr);
@@ -151,9 +143,7 @@ brume_status Frame::gather(const Constants &constants, brume_plugin_image to, br
     images[gaussians] = product(product_gaussians);
     images[lights] = product(product_lights);
     images[tile_gaussians] = product(product_gaussians, 2);
-    images[cells] = product(product_light_gaussians, 1);
-    images[cell_gaussians] = product(product_light_gaussians, 2);
-    images[shadow_origins] = product(product_light_gaussians);
+    images[light_gaussians] = product(product_light_gaussians);
     images[blob_density] = state_.blob_density;
     images[sun_table] = state_.sun_table;
     images[surroundings] = state_.surroundings;

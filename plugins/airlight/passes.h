@@ -23,7 +23,7 @@ struct Constants {
 
 // The slots of each pass, by index.
 namespace blobs {
-enum Slot { gaussians, lights, cells, cell_gaussians, shadow_origins, density, slot_count };
+enum Slot { gaussians, lights, light_gaussians, density, slot_count };
 }
 
 namespace around {
@@ -38,9 +38,7 @@ enum Slot {
     gaussians,
     lights,
     tile_gaussians,
-    cells,
-    cell_gaussians,
-    shadow_origins,
+    light_gaussians,
     blob_density,
     sun_table,
     surroundings,

@@ -23,8 +23,7 @@ brume_status blobs_rows(const brume_plugin_rows *call, int32_t first, int32_t la
     const Camera camera = camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
     const Texture gaussians = texture_of(slots[blobs::gaussians]), lights = texture_of(slots[blobs::lights]),
-                  cells = texture_of(slots[blobs::cells]), cell_gaussians = texture_of(slots[blobs::cell_gaussians]),
-                  shadow_origins = texture_of(slots[blobs::shadow_origins]);
+                  light_gaussians = texture_of(slots[blobs::light_gaussians]);
     const int values = settings.gaussian_count * (1 + settings.light_count);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const int i = y * BRUME_DATA_WIDTH + x;
@@ -57,8 +56,7 @@ brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t l
     const Texture depth = texture_of(slots[gather::depth]), gaussian_density = texture_of(slots[gather::gaussian_density]),
                   tiles = texture_of(slots[gather::tiles]), gaussians = texture_of(slots[gather::gaussians]),
                   lights = texture_of(slots[gather::lights]), tile_gaussians = texture_of(slots[gather::tile_gaussians]),
-                  cells = texture_of(slots[gather::cells]), cell_gaussians = texture_of(slots[gather::cell_gaussians]),
-                  shadow_origins = texture_of(slots[gather::shadow_origins]),
+                  light_gaussians = texture_of(slots[gather::light_gaussians]),
                   blob_density = texture_of(slots[gather::blob_density]), sun_table = texture_of(slots[gather::sun_table]),
                   surroundings = texture_of(slots[gather::surroundings]),
                   environment = texture_of(slots[gather::environment]),

@@ -40,7 +40,7 @@ constexpr brume_layer_info layer_table[] = {
 };
 static_assert(std::size(layer_table) == layer_count);
 
-constexpr const char *used[] = {"lights", "gaussians", "density_rgb", "light_shadows", "light_gaussians"};
+constexpr const char *used[] = {"lights", "light_gaussians", "density_rgb", "light_shadows"};
 static_assert(std::size(used) == product_count);
 
 bool any(const float (&v)[3])

@@ -22,8 +22,8 @@ static_assert(std::size(normals_slots) == normals::slot_count);
 
 // In the order of shared::Slot.
 #define OF_ALL                                                                                                              \
-    fetch("depth"), fetch("normals"), fetch("lights"), fetch("ungrouped"), fetch("gaussians"), fetch("cells"),              \
-        fetch("cell_gaussians"), fetch("shadow_origins"), fetch("table"), fetch("albedo")
+    fetch("depth"), fetch("normals"), fetch("lights"), fetch("ungrouped"), fetch("light_gaussians"), fetch("table"),        \
+        fetch("albedo")
 #define OF_PARTS OF_ALL, fetch("specular"), fetch("roughness"), fetch("rest"), fetch("lit")
 #define OF_GROUPS fetch("group_0"), fetch("group_1"), fetch("group_2"), fetch("group_3")
 
@@ -233,10 +233,7 @@ void Frame::bind_all(brume_plugin_image *images) const
     images[shared::normals] = normals_;
     images[lights] = product(product_lights);
     images[ungrouped] = state_.ungrouped;
-    images[gaussians] = product(product_gaussians);
-    images[cells] = product(product_light_gaussians, 1);
-    images[cell_gaussians] = product(product_light_gaussians, 2);
-    images[shadow_origins] = product(product_light_gaussians);
+    images[light_gaussians] = product(product_light_gaussians);
     images[table] = state_.table;
     images[albedo] = frame_.layers[layer_albedo].image;
 }

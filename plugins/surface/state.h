@@ -21,14 +21,7 @@ enum Layer {
     layer_surface,
     layer_count
 };
-enum Product {
-    product_lights,
-    product_gaussians,
-    product_density_rgb,
-    product_light_shadows,
-    product_light_gaussians,
-    product_count
-};
+enum Product { product_lights, product_light_gaussians, product_density_rgb, product_light_shadows, product_count };
 
 // Of the data images.
 enum Upload : uint32_t { upload_ungrouped, upload_environment, upload_turned, upload_table };

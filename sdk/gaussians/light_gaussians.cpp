@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,8 @@ namespace {
 
 using namespace maths_double;
 
-constexpr size_t most_entries = size_t(1) << 24;  // indices travel as floats
+constexpr size_t most_texels = size_t(1) << 24;  // indices travel as floats
+constexpr size_t most_entries = most_texels;
 constexpr int most_levels = 6;
 
 // The cone around a cell's directions. Octahedral cells are polygons of great circles, so a corner lies farthest out.
@@ -101,30 +103,35 @@ bool LightGaussians::build(const brume_plugin_scene &scene, bool moved, bool wit
     }
 
     const uint32_t count = 1 + scene.light_count;
-    origins.assign(size_t(count) * 12, 0.0f);
-    cells.resize(size_t(count) * per_origin * 4);
+    first_cell_ = 3 * size_t(count);
+    first_gaussian_ = (first_cell_ + size_t(count) * per_origin + 1) / 2;
+    texels.resize(moved ? 8 * (first_gaussian_ + scene.gaussian_count) : lights_end_);
     for (uint32_t origin = 0; origin < count; ++origin) {
-        origins[12 * origin + 8] = float(origin * per_origin);
-        origins[12 * origin + 9] = float(grid_);
+        float *texel = &texels[12 * size_t(origin)];
+        std::fill_n(texel, 12, 0.0f);
+        texel[8] = float(first_cell_ + size_t(origin) * per_origin);
+        texel[9] = float(grid_);
+        texel[10] = float(first_gaussian_);
     }
+    static_assert(sizeof(brume_plugin_gaussian) == 8 * sizeof(float));
+    if (scene.gaussian_count > 0)
+        std::memcpy(&texels[8 * first_gaussian_], scene.gaussians, scene.gaussian_count * sizeof(brume_plugin_gaussian));
     entries_.clear();
     for (uint32_t l = 0; l < scene.light_count; ++l) {
         const brume_plugin_light &light = scene.lights[l];
         const uint32_t first = (1 + l) * per_origin;
         if (light.type == BRUME_LIGHT_DIRECTIONAL)
-            add_across(scene, l, first, &origins[12 * (1 + l)], moved);
+            add_across(scene, l, first, &texels[12 * (1 + size_t(l))], moved);
         else if (moved)
             add_around(in_world_axes(*scene.camera, light.position), first);
         if (entries_.size() > most_entries)
             return false;
     }
     if (moved) {
-        cell_gaussians.clear();
         if (!sort_entries(per_origin, scene.light_count * per_origin))
             return false;
-        light_entries_ = cell_gaussians.size();
+        lights_end_ = texels.size();
     }
-    cell_gaussians.resize(light_entries_);
     entries_.clear();
     if (with_camera)
         add_around({0, 0, 0}, 0);
@@ -193,26 +200,28 @@ void LightGaussians::add_across(const brume_plugin_scene &scene, uint32_t l, uin
     }
 }
 
-// Appends the entries to cell_gaussians, cell by cell, and writes the cells' ranges.
+// Appends the entries, cell by cell, and writes where each cell's are.
 bool LightGaussians::sort_entries(uint32_t first_cell, uint32_t cell_count)
 {
-    if (entries_.size() + cell_gaussians.size() > most_entries)
-        return false;
-    std::vector<uint32_t> starts(size_t(cell_count) + 1, 0);
+    std::vector<uint32_t> counts(cell_count, 0);
     for (const Entry &entry : entries_)
-        ++starts[entry.cell - first_cell + 1];
-    for (uint32_t i = 0; i < cell_count; ++i)
-        starts[i + 1] += starts[i];
-    const size_t base = cell_gaussians.size();
+        ++counts[entry.cell - first_cell];
+    size_t end = texels.size() / 4;
     for (uint32_t i = 0; i < cell_count; ++i) {
-        float *cell = &cells[size_t(first_cell + i) * 4];
-        cell[0] = float(base + starts[i]);
-        cell[1] = float(starts[i + 1] - starts[i]);
+        float *cell = &texels[4 * (first_cell_ + first_cell + i)];
+        cell[0] = float(end);
+        cell[1] = float(counts[i]);
         cell[2] = cell[3] = 0;
+        end += (counts[i] + 3) / 4;
+        counts[i] = 0;
     }
-    cell_gaussians.resize(base + entries_.size());
-    for (const Entry &entry : entries_)
-        cell_gaussians[base + starts[entry.cell - first_cell]++] = float(entry.gaussian);
+    if (end > most_texels)
+        return false;
+    texels.resize(4 * end);
+    for (const Entry &entry : entries_) {
+        const size_t first = size_t(texels[4 * (first_cell_ + entry.cell)]);
+        texels[4 * first + counts[entry.cell - first_cell]++] = float(first_gaussian_ + entry.gaussian);
+    }
     return true;
 }
 

@@ -8,7 +8,7 @@
 namespace brume {
 
 // Which Gaussians can lie between an origin (0: the camera, 1 + l: light l) and a point in some direction from it, as the
-// data images of shaders/lib/shadow.glsl have it: product "light_gaussians".
+// data image of shaders/lib/shadow.glsl has it: product "light_gaussians".
 //
 // A grid of direction cells won over a tree of cones and over intervals (Fogshop sec. 5.1): a shader finds its list with one
 // fetch, and building it descends a quadtree over the cells, about as many steps as the lists have entries.
@@ -18,9 +18,7 @@ public:
     // Throws Error(BRUME_ERROR_UNSUPPORTED) if the lists grow beyond what a float can count.
     void refresh(const brume_plugin_scene &scene, bool moved, bool with_camera);
 
-    std::vector<float> origins;         // 3 texels each
-    std::vector<float> cells;           // one texel each
-    std::vector<float> cell_gaussians;  // one value each
+    std::vector<float> texels;
 
 private:
     struct Entry {
@@ -39,10 +37,12 @@ private:
     void add_across(const brume_plugin_scene &scene, uint32_t light, uint32_t first_cell, float *texels, bool moved);
     bool sort_entries(uint32_t first_cell, uint32_t cell_count);
 
-    int grid_ = 1;  // cells a side, a power of two
+    int grid_ = 1;               // cells a side, a power of two
+    size_t first_cell_ = 0;      // texels
+    size_t first_gaussian_ = 0;  // pairs of texels
     std::vector<Sphere> spheres_;
     std::vector<Entry> entries_;
-    size_t light_entries_ = 0;  // of cell_gaussians, before the camera's
+    size_t lights_end_ = 0;  // of texels, before the camera's entries
 };
 
 }  // namespace brume

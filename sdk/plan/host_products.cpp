@@ -137,12 +137,10 @@ void HostProducts::upload_gaussians(brume_host_t &host, const brume_plugin_scene
 void HostProducts::upload_light_gaussians(brume_host_t &host, const brume_plugin_scene &scene, bool moved)
 {
     directions_.refresh(scene, moved, camera_gaussians_);
-    const brume_plugin_image images[] = {
-        host.upload(upload_of_shadow_origins, 4, directions_.origins.data(), directions_.origins.size() / 4),
-        host.upload(upload_of_cells, 4, directions_.cells.data(), directions_.cells.size() / 4),
-        host.upload(upload_of_cell_gaussians, 1, directions_.cell_gaussians.data(), directions_.cell_gaussians.size())};
+    const brume_plugin_image image =
+        host.upload(upload_of_light_gaussians, 4, directions_.texels.data(), directions_.texels.size() / 4);
     for (const char *name : {"light_gaussians", "camera_gaussians"})
-        host.publish(name, images, 3, scene.light_count, uploads_);
+        host.publish(name, &image, 1, scene.light_count, uploads_);
 }
 
 void HostProducts::upload_lights(brume_host_t &host, const brume_plugin_scene &scene)

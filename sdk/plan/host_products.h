@@ -19,9 +19,7 @@ enum HostUpload : uint32_t {
     upload_of_lights,
     upload_of_light_shadows,
     upload_of_visible_lights,
-    upload_of_shadow_origins,
-    upload_of_cells,
-    upload_of_cell_gaussians
+    upload_of_light_gaussians
 };
 
 // What the host makes of the scene for effects, as brume_plugin_product lists it: made only where something uses it. Its

@@ -160,7 +160,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                     strength *= lit_share(shadow_maps, ray, edge[j], edge[j + 1]);
                 if (strength > R(0.0) || (settings.orders == orders_all && (light.type == light_spot || ray.kind != 0))) {
                     vec3 point = t * sight.direction;
-                    float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, l, light, point);
+                    float depth = terms_to_light(medium, light, point) + shadow_density(light_gaussians, camera, l, light, point);
                     f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
                     if (settings.orders == orders_all)
                         f += rescattered_strength(medium, camera, light, aspect, around, sight.direction, t,

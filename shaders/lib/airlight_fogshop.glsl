@@ -27,11 +27,11 @@ PURE float blob_density_at(IN(Medium) medium, IN(Camera) camera, IN(AirlightSett
     if (l < 0) {
         float distance = length(g.center);
         vec3 way = g.center / max(distance, R(1e-20));
-        return camera_density(SHADOW_PASSED, camera, g.center) - gaussian_integral(g, vec3(R(0.0)), way, R(0.0), distance) +
+        return camera_density(light_gaussians, camera, g.center) - gaussian_integral(g, vec3(R(0.0)), way, R(0.0), distance) +
                density_integral(medium, way, distance);
     }
     Light light = light_at(lights, l);
-    return shadow_density(SHADOW_PASSED, camera, l, light, g.center) - own_density(g, light, g.center) +
+    return shadow_density(light_gaussians, camera, l, light, g.center) - own_density(g, light, g.center) +
            terms_to_light(medium, light, g.center);
 }
 
@@ -45,7 +45,7 @@ PURE Airlight airlight_by_projection(IN(Medium) medium, IN(Camera) camera, IN(Ai
         Airlight one = terms_by_table(medium, sun_table, light, sight);
         if (max(max(one.radiance.x, one.radiance.y), one.radiance.z) <= R(0.0))
             continue;
-        vec3 c_sv = transmittance(medium, shadow_density(SHADOW_PASSED, camera, l, light, vec3(R(0.0))));
+        vec3 c_sv = transmittance(medium, shadow_density(light_gaussians, camera, l, light, vec3(R(0.0))));
         sum.radiance += c_sv * one.radiance;
         sum.error += c_sv * one.error;
     }

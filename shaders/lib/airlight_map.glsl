@@ -23,7 +23,7 @@ PURE float attenuation_distance(IN(AttenuationFrame) frame, int nodes, int node)
     return mix(frame.near, frame.far, float(node) / float(nodes - 1));
 }
 
-// A ray of a map, and what it may meet: cell_gaussians[first .. first + count).
+// A ray of a map, and what it may meet: listed_gaussian(first, 0 to count - 1).
 struct AttenuationRay {
     vec3 origin;
     vec3 direction;
@@ -33,8 +33,8 @@ struct AttenuationRay {
     int count;
 };
 
-PURE AttenuationRay attenuation_ray(IN(Camera) camera, IN(AttenuationFrame) frame, IN(Light) light, sampler2D cells,
-                                    sampler2D shadow_origins, int index, int side, ivec2 texel)
+PURE AttenuationRay attenuation_ray(IN(Camera) camera, IN(AttenuationFrame) frame, IN(Light) light,
+                                    sampler2D light_gaussians, int index, int side, ivec2 texel)
 {
     vec2 square = vec2(texel) / float(side - 1);
     AttenuationRay ray;
@@ -49,10 +49,9 @@ PURE AttenuationRay attenuation_ray(IN(Camera) camera, IN(AttenuationFrame) fram
         ray.origin = u * ((square.x - frame.u.w) / across) + v * ((square.y - frame.v.w) / along);
         ray.start = -far_away;
         ray.spacing = R(1.0) / (float(side - 1) * sqrt(sqrt(across * along)));
-        u = vec3(data_texel(shadow_origins, 3 * (1 + index)));
-        v = vec3(data_texel(shadow_origins, 3 * (1 + index) + 1));
-        square = vec2(dot(u, ray.origin) + data_texel(shadow_origins, 3 * (1 + index)).w,
-                      dot(v, ray.origin) + data_texel(shadow_origins, 3 * (1 + index) + 1).w);
+        vec4 across_lists = shadow_origin(light_gaussians, 1 + index, 0);
+        vec4 along_lists = shadow_origin(light_gaussians, 1 + index, 1);
+        square = vec2(dot(vec3(across_lists), ray.origin) + across_lists.w, dot(vec3(along_lists), ray.origin) + along_lists.w);
     } else {
         vec3 u = vec3(frame.u);
         vec3 v = vec3(frame.v);
@@ -63,8 +62,8 @@ PURE AttenuationRay attenuation_ray(IN(Camera) camera, IN(AttenuationFrame) fram
         ray.spacing = R(2.0) * sqrt(frame.size.x * frame.size.y) * stretch * sqrt(stretch) / float(side - 1);
         square = octahedral(in_world(camera, ray.direction));
     }
-    vec4 grid = data_texel(shadow_origins, 3 * (1 + index) + 2);
-    vec4 list = data_texel(cells, int(grid.x) + cell_of(square, int(grid.y)));
+    vec4 grid = shadow_origin(light_gaussians, 1 + index, 2);
+    vec4 list = data_texel(light_gaussians, int(grid.x) + cell_of(square, int(grid.y)));
     ray.first = int(list.x);
     ray.count = int(list.y);
     return ray;

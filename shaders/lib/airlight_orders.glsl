@@ -177,7 +177,7 @@ PURE Panel orders_panel(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetting
         vec3 f = vec3(R(0.0));
         if (mass[k] > R(0.0)) {
             vec3 point = t[k] * sight.direction;
-            float depth = terms_to_light(medium, light, point) + shadow_density(SHADOW_PASSED, camera, index, light, point);
+            float depth = terms_to_light(medium, light, point) + shadow_density(light_gaussians, camera, index, light, point);
             f = rescattered_strength(medium, camera, light, aspect, around, sight.direction, t[k],
                                      clamp(depth, R(0.0), density_limit));
             f = min(min(f, vec3(radiance_limit)) * mass[k], vec3(radiance_limit)) *

@@ -177,7 +177,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         float strength = min(rho[k] * lit_strength(medium, light, aspect, sight.direction, t[k]), radiance_limit);
         if (strength > R(0.0)) {
             vec3 point = t[k] * sight.direction;
-            float p_all = p[k] + to_light[k] + shadow_density(SHADOW_PASSED, camera, index, light, point);
+            float p_all = p[k] + to_light[k] + shadow_density(light_gaussians, camera, index, light, point);
             vec3 tau = optical_depth(medium, clamp(p_all, R(0.0), density_limit));
             f = min(min(strength * dt[k], radiance_limit) * light.intensity, vec3(radiance_limit)) * exp(-tau);
             f = min(f * scattering, vec3(radiance_limit));

@@ -17,7 +17,7 @@ PURE vec4 scattered_texel(IN(Medium) medium, IN(Camera) camera, IN(ScatteredSett
             continue;
         float depth = terms_to_light(medium, light, point);
         if (s.gaussians > 0)
-            depth += shadow_density(SHADOW_PASSED, camera, l, light, point);
+            depth += shadow_density(light_gaussians, camera, l, light, point);
         sum += rescattered_strength(medium, camera, light, aspect, surroundings_of(surroundings, l), direction, t,
                                     clamp(depth, R(0.0), density_limit));
     }

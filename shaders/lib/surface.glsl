@@ -106,10 +106,10 @@ PURE Change change_by_light(IN(Medium) medium, IN(LampColours) colours, IN(Surfa
 
 // The environment's part of the picture after, by method psf: eq. 27 with a lobe of Phong for the rest of what reflects. Without a
 // normal or an end of the medium it stays as it is.
-PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D gaussians,
+PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D light_gaussians,
                              sampler2D environment, sampler2D table, IN(Surface) surface, IN(Material) material, vec3 own)
 {
-    float p = mean_density_around(medium, camera, table, gaussians, gaussians_around(settings), surface.point);
+    float p = mean_density_around(medium, camera, table, light_gaussians, gaussians_around(settings), surface.point);
     if (p < R(0.0) || surface.normal == vec3(R(0.0)))
         return own;
     vec3 normal = in_world(camera, surface.normal);
@@ -134,15 +134,15 @@ PURE vec3 lit_by_environment(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSet
 }
 
 // What the medium adds to the environment's part of the picture.
-PURE vec3 sky_change(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D gaussians, sampler2D environment,
+PURE vec3 sky_change(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D light_gaussians, sampler2D environment,
                      sampler2D table, IN(Surface) surface, IN(Material) material, vec3 own)
 {
     if (settings.environment_order == 0)
         return vec3(R(0.0));
     if (settings.method == method_psf)
-        return lit_by_environment(medium, camera, settings, gaussians, environment, table, surface, material, own) - own;
+        return lit_by_environment(medium, camera, settings, light_gaussians, environment, table, surface, material, own) - own;
     if (settings.method == method_calibrated)
-        return own * (environment_share(medium, camera, settings, environment, gaussians, surface) - vec3(R(1.0)));
+        return own * (environment_share(medium, camera, settings, environment, light_gaussians, surface) - vec3(R(1.0)));
     return vec3(R(0.0));
 }
 
@@ -183,12 +183,12 @@ PURE vec3 sent_of_light(IN(Medium) medium, IN(LampColours) colours, IN(Camera) c
 
 // The same of the environment, by method psf alone: method calibrated knows but a factor of what the picture has of it. in_axes: its
 // coefficients in the transfer's axes.
-PURE vec3 sent_of_sky(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D gaussians, sampler2D environment,
+PURE vec3 sent_of_sky(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D light_gaussians, sampler2D environment,
                       sampler2D in_axes, sampler2D table, IN(Surface) surface, IN(Transfer) transfer)
 {
     if (settings.environment_order == 0 || settings.method != method_psf)
         return vec3(R(0.0));
-    float p = mean_density_around(medium, camera, table, gaussians, gaussians_around(settings), surface.point);
+    float p = mean_density_around(medium, camera, table, light_gaussians, gaussians_around(settings), surface.point);
     if (p < R(0.0))
         return vec3(R(0.0));
     int given = min(settings.transfer, settings.environment_order);

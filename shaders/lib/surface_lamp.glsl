@@ -147,11 +147,11 @@ PURE vec3 clear_irradiance(IN(Surface) surface, IN(Light) light)
 
 // int rho dt between a surface and a light, `index` of all.
 PURE float density_to_lamp(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, IN(Surface) surface, int index,
-                           IN(Light) light, SHADOW_IMAGES)
+                           IN(Light) light, sampler2D light_gaussians)
 {
     float p = terms_to_light(medium, light, surface.point);
     if (settings.gaussian_count > 0)
-        p += shadow_density(SHADOW_PASSED, camera, index, light, surface.point);
+        p += shadow_density(light_gaussians, camera, index, light, surface.point);
     return clamp(p, R(0.0), density_limit);
 }
 

@@ -125,14 +125,15 @@ PURE float mean_depth_of_gaussian(sampler2D table, float distance)
 
 // T-bar of eq. 26 at unit density [m], of Gaussians and of a constant density that ends at the sky's distance; negative where
 // density has no end.
-PURE float mean_density_around(IN(Medium) medium, IN(Camera) camera, sampler2D table, sampler2D gaussians, int gaussian_count,
-                               vec3 point)
+PURE float mean_density_around(IN(Medium) medium, IN(Camera) camera, sampler2D table, sampler2D light_gaussians,
+                               int gaussian_count, vec3 point)
 {
     if (medium.term_count > 0 || (medium.constant > R(0.0) && camera.sky != sky_clamp))
         return R(-1.0);
     float p = medium.constant > R(0.0) ? medium.constant * camera.sky_distance : R(0.0);
+    int first = gaussian_count > 0 ? first_gaussian(light_gaussians) : 0;
     for (int i = 0; i < gaussian_count; ++i) {
-        Gaussian g = gaussian_at(gaussians, i);
+        Gaussian g = gaussian_at(light_gaussians, first + i);
         float u = min(g.scale * length(point - g.center), R(1e15));
         p += min(g.amplitude / g.scale * mean_depth_of_gaussian(table, u), density_limit);
     }

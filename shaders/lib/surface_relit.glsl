@@ -1,8 +1,8 @@
 // Pixels whose lights' parts are known, or shared out. Needs what surface.glsl says of each light: change_by_light(), lit_by_map(),
 // sent_of_light(), and of the sky: sky_irradiance(), sky_change(), sent_of_sky(). Of lamps alone pixels of a row may go side by side.
 
-#define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, SHADOW_IMAGES, sampler2D environment, sampler2D table
-#define SURFACE_PASSED lights, ungrouped, SHADOW_PASSED, environment, table
+#define SURFACE_IMAGES sampler2D lights, sampler2D ungrouped, sampler2D light_gaussians, sampler2D environment, sampler2D table
+#define SURFACE_PASSED lights, ungrouped, light_gaussians, environment, table
 
 // Loops over lights are asked at their end: software OpenGL goes through a loop's body once more, for no pixel, after one that is asked at
 // its begin.
@@ -38,7 +38,7 @@ PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) c
             vec3 irradiance = ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l);
             all = min(all + irradiance, vec3(radiance_limit));
             if (!glossy) {
-                float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
+                float p = density_to_lamp(medium, camera, settings, surface, l, light, light_gaussians);
                 Change change = change_by_light(medium, colours, settings, surface, light, material, shine, p, table);
                 changed += irradiance * (change.along - vec3(R(1.0)));
                 brought += change.brought;
@@ -47,7 +47,7 @@ PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) c
     vec3 sky = sky_irradiance(camera, settings, environment, surface);
     vec3 scale = vec3(R(1.0)) / max(all + sky, vec3(R(1e-30)));
     vec3 change = rest * (changed * scale) + brought +
-                  sky_change(medium, camera, settings, gaussians, environment, table, surface, material, rest * (sky * scale));
+                  sky_change(medium, camera, settings, light_gaussians, environment, table, surface, material, rest * (sky * scale));
     l = 0;
     if (glossy && count > 0)
         do {
@@ -55,7 +55,7 @@ PURE vec3 rest_received(IN(Medium) medium, IN(LampColours) colours, IN(Camera) c
                 continue;
             Light light = surface_light(settings, lights, l);
             vec3 own = rest * (ungrouped_irradiance(camera, settings, SHADOW_MAP_PASSED, surface, light, l) * scale);
-            float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
+            float p = density_to_lamp(medium, camera, settings, surface, l, light, light_gaussians);
             change += becomes(change_by_light(medium, colours, settings, surface, light, material, shine, p, table), own) - own;
         } while (++l < count);
     return max(rest + change, min(rest, vec3(R(0.0))));
@@ -78,14 +78,14 @@ struct Divided {
 
 // group: light l's own layer of the picture.
 PURE Divided divided_by_group(IN(Medium) medium, IN(LampColours) colours, IN(Camera) camera, IN(SurfaceSettings) settings,
-                              IN(Surface) surface, IN(Material) material, IN(Shine) shine, sampler2D lights, SHADOW_IMAGES,
+                              IN(Surface) surface, IN(Material) material, IN(Shine) shine, sampler2D lights, sampler2D light_gaussians,
                               sampler2D table, IN(Divided) pixel, int l, vec3 group)
 {
     vec3 own = finite_or_zero(group);
     vec3 lit = own;
     if (some(surface.seen)) {
         Light light = surface_light(settings, lights, l);
-        float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
+        float p = density_to_lamp(medium, camera, settings, surface, l, light, light_gaussians);
         lit = chosen(surface.seen,
                      becomes(change_by_light(medium, colours, settings, surface, light, material, shine, p, table), own), own);
     }
@@ -111,11 +111,11 @@ PURE vec3 brought_by_transfer(IN(Medium) medium, IN(LampColours) colours, IN(Cam
     Bool there = surface.seen && has_normal(surface);
     if (!some(there))
         return vec3(R(0.0));
-    vec3 sum = sent_of_sky(medium, camera, settings, gaussians, environment, in_axes, table, surface, transfer);
+    vec3 sum = sent_of_sky(medium, camera, settings, light_gaussians, environment, in_axes, table, surface, transfer);
     for (int l = 0; l < settings.light_count; ++l)
         if (int(data_texel(ungrouped, l).x) != part_none) {
             Light light = surface_light(settings, lights, l);
-            float p = density_to_lamp(medium, camera, settings, surface, l, light, SHADOW_PASSED);
+            float p = density_to_lamp(medium, camera, settings, surface, l, light, light_gaussians);
             sum += sent_of_light(medium, colours, camera, settings, surface, light, transfer, p, table);
         }
     return chosen(there, min(reflectance(albedo) * sum, vec3(radiance_limit)), vec3(R(0.0)));

@@ -134,11 +134,12 @@ PURE bool ends_above(IN(Medium) medium, IN(Camera) camera)
 }
 
 // int rho dt from a surface up, out of the medium.
-PURE float density_above(IN(Medium) medium, IN(Camera) camera, sampler2D gaussians, int gaussian_count, vec3 point, vec3 up)
+PURE float density_above(IN(Medium) medium, IN(Camera) camera, sampler2D light_gaussians, int gaussian_count, vec3 point, vec3 up)
 {
     float p = density_between(medium, point, up, far_away, some(medium.constant > R(0.0)) ? camera.sky_distance : R(0.0));
+    int first = gaussian_count > 0 ? first_gaussian(light_gaussians) : 0;
     for (int i = 0; i < gaussian_count; ++i)
-        p += profile_depth(profile_along(gaussian_at(gaussians, i), point, up), R(0.0), far_away);
+        p += profile_depth(profile_along(gaussian_at(light_gaussians, first + i), point, up), R(0.0), far_away);
     return clamp(p, R(0.0), density_limit);
 }
 
@@ -167,7 +168,7 @@ PURE float share_of_sky(IN(SkyArrived) sky, float clear, float around)
 // What is left of the environment's part. Layers lie as thinning_way() has it, else along the surface. An even sky, over a ground that
 // gives all back and fog that absorbs nothing, is as it was.
 PURE vec3 environment_share(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSettings) settings, sampler2D environment,
-                            sampler2D gaussians, IN(Surface) surface)
+                            sampler2D light_gaussians, IN(Surface) surface)
 {
     if (!ends_above(medium, camera))
         return vec3(R(1.0));
@@ -177,7 +178,7 @@ PURE vec3 environment_share(IN(Medium) medium, IN(Camera) camera, IN(SurfaceSett
     if (!some(known))
         return vec3(R(1.0));
     vec3 normal = chosen(has_normal(surface), surface.normal, up);
-    float p = density_above(medium, camera, gaussians, gaussians_around(settings), surface.point, up);
+    float p = density_above(medium, camera, light_gaussians, gaussians_around(settings), surface.point, up);
     vec3 clear = environment_irradiance(environment, settings.environment_order, in_world(camera, normal));
     vec3 above = environment_irradiance(environment, settings.environment_order, in_world(camera, up));
     vec3 below = environment_irradiance(environment, settings.environment_order, in_world(camera, -up));

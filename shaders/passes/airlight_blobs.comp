@@ -36,9 +36,7 @@ uniform Camera brume_camera;
 uniform AirlightSettings airlight;
 uniform sampler2D gaussians;
 uniform sampler2D lights;
-uniform sampler2D cells;
-uniform sampler2D cell_gaussians;
-uniform sampler2D shadow_origins;
+uniform sampler2D light_gaussians;
 writeonly uniform image2D density;
 
 void main()

@@ -21,10 +21,7 @@
 uniform Medium brume_medium;
 uniform Camera brume_camera;
 uniform GridSettings grid;
-uniform sampler2D gaussians;
-uniform sampler2D cells;
-uniform sampler2D cell_gaussians;
-uniform sampler2D shadow_origins;
+uniform sampler2D light_gaussians;
 uniform sampler2D attenuation_frames;
 uniform sampler2D lights;
 writeonly uniform image2D result;
@@ -41,7 +38,7 @@ void main()
     Light light = light_at(lights, index);
     AttenuationFrame frame = attenuation_frame(attenuation_frames, index);
     AttenuationRay ray =
-        attenuation_ray(brume_camera, frame, light, cells, shadow_origins, index, grid.side, ivec2(p.x, p.y % grid.side));
+        attenuation_ray(brume_camera, frame, light, light_gaussians, index, grid.side, ivec2(p.x, p.y % grid.side));
     for (int k = 0; k < grid.nodes; k += together) {
         float distance[together];
         float sum[together];
@@ -50,7 +47,7 @@ void main()
             sum[j] = 0.0;
         }
         for (int i = 0; i < ray.count; ++i) {
-            Gaussian g = gaussian_at(gaussians, int(data_texel(cell_gaussians, ray.first + i).x));
+            Gaussian g = listed_gaussian(light_gaussians, ray.first, i);
             Profile q = attenuation_profile(ray, light, g);
             if (passed_by(brume_medium, g, q) || q.scale * (q.middle - distance[together - 1]) > 4.0)
                 continue;

@@ -35,9 +35,7 @@ uniform sampler2D distances;
 uniform sampler2D lights;
 uniform sampler2D surroundings;
 uniform sampler2D gaussians;
-uniform sampler2D cells;
-uniform sampler2D cell_gaussians;
-uniform sampler2D shadow_origins;
+uniform sampler2D light_gaussians;
 writeonly uniform image2D result;
 
 void main()

@@ -36,10 +36,7 @@ uniform sampler2D depth;
 uniform sampler2D normals;
 uniform sampler2D lights;
 uniform sampler2D ungrouped;
-uniform sampler2D gaussians;
-uniform sampler2D cells;
-uniform sampler2D cell_gaussians;
-uniform sampler2D shadow_origins;
+uniform sampler2D light_gaussians;
 uniform sampler2D environment;
 uniform sampler2D table;
 uniform sampler2D albedo;
@@ -70,7 +67,7 @@ void main()
 #if GROUPS
     vec3 of_groups[4] = vec3[](texelFetch(group_0, p, 0).rgb, texelFetch(group_1, p, 0).rgb, texelFetch(group_2, p, 0).rgb,
                                texelFetch(group_3, p, 0).rgb);
-    divided = divided_by_groups(medium, colours, brume_camera, around, surface, material, shine, lights, SHADOW_PASSED, table, groups,
+    divided = divided_by_groups(medium, colours, brume_camera, around, surface, material, shine, lights, light_gaussians, table, groups,
                                 of_lights, of_groups, divided);
 #endif
     vec3 shown = relit(medium, colours, brume_camera, around, SURFACE_PASSED, SHADOW_MAP_PASSED, surface, material, shine, source.rgb,

@@ -37,10 +37,7 @@ uniform sampler2D group_3;
 uniform sampler2D depth;
 uniform sampler2D normals;
 uniform sampler2D lights;
-uniform sampler2D gaussians;
-uniform sampler2D cells;
-uniform sampler2D cell_gaussians;
-uniform sampler2D shadow_origins;
+uniform sampler2D light_gaussians;
 uniform sampler2D table;
 uniform sampler2D albedo;
 uniform sampler2D specular;
@@ -62,7 +59,7 @@ void main()
     Divided divided = Divided(texelFetch(rest, p, 0).rgb, first != 0 ? vec3(0.0) : texelFetch(lit, p, 0).rgb);
     vec3 of_groups[4] = vec3[](texelFetch(group_0, p, 0).rgb, texelFetch(group_1, p, 0).rgb, texelFetch(group_2, p, 0).rgb,
                                texelFetch(group_3, p, 0).rgb);
-    divided = divided_by_groups(medium, colours, brume_camera, around, surface, material, shine, lights, SHADOW_PASSED, table, groups,
+    divided = divided_by_groups(medium, colours, brume_camera, around, surface, material, shine, lights, light_gaussians, table, groups,
                                 of_lights, of_groups, divided);
     imageStore(rest_out, p, vec4(divided.rest, 1.0));
     imageStore(lit_out, p, vec4(divided.lit, 1.0));

@@ -304,17 +304,12 @@ TEST(LightGaussians, MissNoGaussian)
                 lists.refresh(scene, step == 0, true);
                 const Camera camera = camera_of(scene);
                 const Data gaussians = gaussians_of(scene), lights = lights_of(scene),
-                           cells(lists.cells.data(), lists.cells.size() / 4, 4),
-                           entries(lists.cell_gaussians.data(), lists.cell_gaussians.size(), 1),
-                           origins(lists.origins.data(), lists.origins.size() / 4, 4);
-                const Texture g = gaussians.texture(), c = cells.texture(), e = entries.texture(), o = origins.texture();
+                           listed(lists.texels.data(), lists.texels.size() / 4, 4);
+                const Texture g = gaussians.texture(), all = listed.texture();
                 const f32::Camera narrow_camera = f32::camera_of(scene);
-                const f32::Data narrow_gaussians = f32::gaussians_of(scene), narrow_lights = f32::lights_of(scene),
-                                narrow_cells(lists.cells.data(), lists.cells.size() / 4, 4),
-                                narrow_entries(lists.cell_gaussians.data(), lists.cell_gaussians.size(), 1),
-                                narrow_origins(lists.origins.data(), lists.origins.size() / 4, 4);
-                const f32::Texture fg = narrow_gaussians.texture(), fc = narrow_cells.texture(),
-                                   fe = narrow_entries.texture(), fo = narrow_origins.texture();
+                const f32::Data narrow_lights = f32::lights_of(scene),
+                                narrow_listed(lists.texels.data(), lists.texels.size() / 4, 4);
+                const f32::Texture narrow_all = narrow_listed.texture();
                 const int points = count > 1000 ? 40 : 200;
                 for (int i = 0; i < points; ++i)
                     for (int l = -1; l < int(scene.light_count); ++l) {
@@ -327,20 +322,20 @@ TEST(LightGaussians, MissNoGaussian)
                                                                                             : blob.center - light.position);
                             point = blob.center + extent * world.u() * way + world.somewhere(1 / blob.scale);
                         }
-                        hold_density(scene, l, light, point,
-                                     l < 0 ? camera_density(g, c, e, o, camera, point)
-                                           : shadow_density(g, c, e, o, camera, l, light, point),
-                                     1e-6);
+                        hold_density(
+                            scene, l, light, point,
+                            l < 0 ? camera_density(all, camera, point) : shadow_density(all, camera, l, light, point), 1e-6);
                         const f32::Light narrow = l < 0 ? f32::Light{} : f32::light_at(narrow_lights.texture(), l);
                         const f32::vec3 at(point);
                         hold_density(scene, l, light, vec3(at),
-                                     l < 0 ? f32::camera_density(fg, fc, fe, fo, narrow_camera, at)
-                                           : f32::shadow_density(fg, fc, fe, fo, narrow_camera, l, narrow, at),
+                                     l < 0 ? f32::camera_density(narrow_all, narrow_camera, at)
+                                           : f32::shadow_density(narrow_all, narrow_camera, l, narrow, at),
                                      2e-2);
                     }
-                if (step == 0)
-                    listed_pairs += lists.cell_gaussians.size();
-                pairs += step ? 0 : scene.gaussian_count * (lists.cells.size() / 4);
+                const size_t origins = 1 + scene.light_count, cells = size_t(lists.texels[9] * lists.texels[9]) * origins;
+                for (size_t i = 3 * origins; step == 0 && i < 3 * origins + cells; ++i)
+                    listed_pairs += size_t(lists.texels[4 * i + 1]);
+                pairs += step ? 0 : scene.gaussian_count * cells;
             }
         }
     EXPECT_LT(listed_pairs, pairs / 2) << "nothing was culled";

@@ -83,12 +83,10 @@ TEST_P(LanesAirlight, AsNodeByNode)
             const Light one = light_at(lights, 0);
             const Aspect aspect = aspect_of(one, sight.direction);
             const vec3 terms = terms_range(medium, sight);
-            const float cell[4] = {};
-            const Texture cells{cell, 4, 1, 1, 4};
-            const float all_origins[24] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0};
-            const Texture grids{all_origins, 24, 6, 1, 4};
-            expected = light_by_parts(medium, camera, constants.airlight, none, cells, none, grids, none, sight, 0, one,
-                                      aspect, true, terms, vec2(0, std::min(sight.distance, quadrature_limit)), expected);
+            const float of_two_origins[28] = {0, 0, 0, 0, 0, 0, 0, 0, 6, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 6, 1};
+            const Texture lists{of_two_origins, 28, 7, 1, 4};
+            expected = light_by_parts(medium, camera, constants.airlight, none, lists, none, sight, 0, one, aspect, true,
+                                      terms, vec2(0, std::min(sight.distance, quadrature_limit)), expected);
             for (int i = 0; i < 3; ++i) {
                 const float found = radiance[size_t((y * width + x) * 4 + i)];
                 ASSERT_NEAR(found, expected.radiance[i], 2e-5f * expected.radiance[i] + 1e-30f) << x << ", " << y;

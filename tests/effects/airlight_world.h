@@ -44,11 +44,17 @@ public:
                              l.cos_outer, l.intensity.x, l.intensity.y, l.intensity.z, l.cos_inner, double(l.type),
                              l.distance, 0, 0});
         for (int i = 0; i < n; ++i)
-            append(indices_, {double(i)});
-        seen_ = indices_;
-        append(cells_, {0, double(n), 0, 0});
+            append(seen_, {double(i)});
+        // One cell around all origins, which lists all.
+        const size_t cell = 3 * (1 + c.lights.size()), first = (cell + 2) / 2;
         for (size_t origin = 0; origin <= c.lights.size(); ++origin)
-            append(origins_, {0, 0, 0, 0.5, 0, 0, 0, 0.5, 0, 1, 0, 0});
+            append(light_gaussians_, {0, 0, 0, 0.5, 0, 0, 0, 0.5, double(cell), 1, double(first), 0});
+        append(light_gaussians_, {2.0 * double(first + size_t(n)), double(n), 0, 0});
+        light_gaussians_.resize(8 * first);
+        light_gaussians_.insert(light_gaussians_.end(), gaussians_.begin(), gaussians_.end());
+        for (int i = 0; i < n; ++i)
+            append(light_gaussians_, {double(first + size_t(i))});
+        light_gaussians_.resize((light_gaussians_.size() + 3) / 4 * 4);
         camera_.right = {1, 0, 0};
         camera_.up = {0, 1, 0};
         camera_.back = {0, 0, 1};
@@ -96,8 +102,7 @@ public:
         const narrow::Texture light_shadows = image(light_shadows_, 4),
                               shadow_maps{shadow_map_.data(), shadow_width_, shadow_width_,
                                           int(shadow_map_.size()) / std::max(shadow_width_, 1), 1};
-        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4),
-                              cell_gaussians = image(indices_, 1), shadow_origins = image(origins_, 4),
+        const narrow::Texture gaussians = image(gaussians_, 4), light_gaussians = image(light_gaussians_, 4),
                               lights = image(lights_, 4), tile_gaussians = image(seen_, 1);
         if (tier == narrow::airlight_fogshop && blob_density_.empty())
             for (int i = 0; i < settings.gaussian_count * (1 + settings.light_count); ++i)
@@ -112,12 +117,10 @@ public:
     // int rho dt of the Gaussians between a light (-1: the camera) and a point.
     float shadow(int light, vec3 point) const
     {
-        const narrow::Texture gaussians = image(gaussians_, 4), cells = image(cells_, 4),
-                              cell_gaussians = image(indices_, 1), shadow_origins = image(origins_, 4),
-                              lights = image(lights_, 4);
+        const narrow::Texture light_gaussians = image(light_gaussians_, 4), lights = image(lights_, 4);
         if (light < 0)
-            return narrow::camera_density(SHADOW_PASSED, camera_, narrow::vec3(point));
-        return narrow::shadow_density(SHADOW_PASSED, camera_, light, narrow::light_at(lights, light), narrow::vec3(point));
+            return narrow::camera_density(light_gaussians, camera_, narrow::vec3(point));
+        return narrow::shadow_density(light_gaussians, camera_, light, narrow::light_at(lights, light), narrow::vec3(point));
     }
 
     brume::airlight::ReferenceAirlight reference() const
@@ -152,7 +155,7 @@ private:
     narrow::Medium medium_;
     narrow::Camera camera_{};
     int shadow_width_ = 0;
-    std::vector<float> shadow_map_, light_shadows_, gaussians_, lights_, indices_, seen_, cells_, origins_, blob_density_,
+    std::vector<float> shadow_map_, light_shadows_, gaussians_, lights_, light_gaussians_, seen_, blob_density_,
         surroundings_;
 };
 

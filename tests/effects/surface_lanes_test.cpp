@@ -28,7 +28,7 @@ struct Map {
 struct Relit {
     brume_plugin_scene scene{};
     f32::SurfaceSettings settings{};
-    std::vector<float> lights, ungrouped, gaussians, cells, cell_gaussians, shadow_origins, environment, light_shadows;
+    std::vector<float> lights, ungrouped, gaussians, light_gaussians, environment, light_shadows;
     Map shadow_map;
     float row = 300.5f;
     std::vector<float> column, depth, roughness;
@@ -144,7 +144,6 @@ public:
                 push(r.gaussians, {float(i % 7) - 3, float(i % 5) - 2, -5 - float(i), 1, 0.1f, 1, 1, 1});
         }
         list(r);
-        r.gaussians.resize(r.gaussians.size() + 16);
         for (int i = 0; i < 9; ++i)
             push(r.environment,
                  {i == 0 ? 1.2f : 0.1f * float(i % 4), i == 0 ? 1.0f : -0.05f * float(i), i == 0 ? 0.9f : 0.2f, 0});
@@ -179,10 +178,7 @@ private:
         r.settings.gaussian_count = int(gaussians.size());
         brume::LightGaussians lists;
         lists.refresh(scene, true, false);
-        r.shadow_origins = lists.origins;
-        r.cells = lists.cells;
-        for (float g : lists.cell_gaussians)
-            push(r.cell_gaussians, {g, 0, 0, 0});
+        r.light_gaussians = lists.texels;
     }
     static void fill(Relit &r, std::mt19937 &random)
     {

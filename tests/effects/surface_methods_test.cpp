@@ -370,7 +370,8 @@ TEST(SurfaceMethod, BackendsAgree)
     };
     const std::map<std::string, Picture> material{
         {"albedo", picture(3)}, {"specular", picture(3)}, {"roughness", picture(1)}};
-    // Each scene with a method and a material, another pair than the scene before: software OpenGL compiles programs for each.
+    // Each scene with a method and a material, another pair than the scene before: software OpenGL compiles programs for
+    // each.
     int pair = 0;
     for (const NamedScene &named : lit_scenes())
         for (bool more : {false, true}) {

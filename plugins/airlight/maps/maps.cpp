@@ -37,9 +37,8 @@ constexpr float widest_summed = 0.05f;
 constexpr uint32_t fewest_gaussians = 8;
 constexpr double least_error = 0.005;
 
-constexpr brume_slot attenuation_slots[] = {
-    fetch("gaussians"),          fetch("cells"),  fetch("cell_gaussians"), fetch("shadow_origins"),
-    fetch("attenuation_frames"), fetch("lights"), write("result")};
+constexpr brume_slot attenuation_slots[] = {fetch("light_gaussians"), fetch("attenuation_frames"), fetch("lights"),
+                                            write("result")};
 static_assert(std::size(attenuation_slots) == maps::attenuation::slot_count);
 
 constexpr brume_slot density_slots[] = {fetch("gaussians"), fetch("tiles"), fetch("tile_gaussians"), fetch("slices"),
@@ -273,10 +272,7 @@ brume_status Run::maps_of(int first, int last)
     Constants constants = constants_;
     constants.grid.mapped = keeps() ? 0 : first;
     brume_plugin_image images[slot_count] = {};
-    images[gaussians] = product(product_gaussians);
-    images[cells] = product(product_light_gaussians, 1);
-    images[cell_gaussians] = product(product_light_gaussians, 2);
-    images[shadow_origins] = product(product_light_gaussians);
+    images[light_gaussians] = product(product_light_gaussians);
     images[frames] = maps_.frames;
     images[maps::attenuation::lights] = product(product_lights);
     images[result] = maps_.attenuation;

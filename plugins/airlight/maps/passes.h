@@ -26,7 +26,7 @@ struct Constants {
 };
 
 namespace attenuation {
-enum Slot { gaussians, cells, cell_gaussians, shadow_origins, frames, lights, result, slot_count };
+enum Slot { light_gaussians, frames, lights, result, slot_count };
 }
 namespace density {
 enum Slot { gaussians, tiles, tile_gaussians, slices, result, slot_count };

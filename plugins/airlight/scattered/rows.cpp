@@ -89,8 +89,7 @@ brume_status make_rows(const brume_plugin_rows *call, int32_t first, int32_t las
     const brume_plugin_pixels *slots = call->slots;
     const Texture distances = texture_of(slots[make::distances]), lights = texture_of(slots[make::lights]),
                   surroundings = texture_of(slots[make::surroundings]), gaussians = texture_of(slots[make::gaussians]),
-                  cells = texture_of(slots[make::cells]), cell_gaussians = texture_of(slots[make::cell_gaussians]),
-                  shadow_origins = texture_of(slots[make::shadow_origins]);
+                  light_gaussians = texture_of(slots[make::light_gaussians]);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 texel(x, y);
         const int slice = y / s.rows * s.across + x / s.columns;

@@ -28,9 +28,8 @@ constexpr int cells = 40;  // along the longer side
 constexpr int widest = 8192;
 constexpr double least_error = 0.005;
 
-constexpr brume_slot make_slots[] = {fetch("distances"),      fetch("lights"), fetch("surroundings"),
-                                     fetch("gaussians"),      fetch("cells"),  fetch("cell_gaussians"),
-                                     fetch("shadow_origins"), write("result")};
+constexpr brume_slot make_slots[] = {fetch("distances"), fetch("lights"),          fetch("surroundings"),
+                                     fetch("gaussians"), fetch("light_gaussians"), write("result")};
 static_assert(std::size(make_slots) == scattered::make::slot_count);
 
 constexpr brume_slot add_slots[] = {fetch("depth"),          fetch("gaussian_density"),  fetch("tiles"),
@@ -170,9 +169,7 @@ brume_status add_rescattered(const brume_services &services, brume_host host, co
         images[lights] = product(product_lights);
         images[surroundings] = state.surroundings;
         images[gaussians] = product(product_gaussians);
-        images[scattered::make::cells] = product(product_light_gaussians, 1);
-        images[cell_gaussians] = product(product_light_gaussians, 2);
-        images[shadow_origins] = product(product_light_gaussians);
+        images[light_gaussians] = product(product_light_gaussians);
         images[result] = of.grid;
         const ivec2 size = grid_size(of.settings);
         if (brume_status s = services.run(host, of.make, images, &constants, size.x, size.y, nullptr))

@@ -157,8 +157,8 @@ typedef struct brume_plugin_layer {
                      by row: x the first and y the number of its entries in [2]. [2] data, one channel: indices of the
                      Gaussians that matter in the tile, by distance. count: of Gaussians
    light_gaussians   which Gaussians lie between a light and a point, by the light's direction, as shaders/lib/shadow.glsl reads
-                     it: data images [0] shadow_origins, [1] cells, [2] cell_gaussians. count: of lights
-   camera_gaussians  the same images; they list what lies between the camera and a point then, too
+                     it. count: of lights
+   camera_gaussians  the same image; it lists what lies between the camera and a point then, too
    lights            data: 4 texels each, as brume_plugin_light. count: of lights
    light_shadows     only where some light has a shadow map: [0] data: 5 texels each: shadow_rows, then shadow_kind,
                      shadow_extent, 1 where distances are along rays, 0, then x, y, width and height of the map's rectangle in [1].
