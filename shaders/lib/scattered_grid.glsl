@@ -1,7 +1,7 @@
 // The texels of airlight_scattered.glsl's grid.
 
 PURE vec4 scattered_texel(IN(Medium) medium, IN(Camera) camera, IN(ScatteredSettings) s, sampler2D distances, sampler2D lights,
-                          sampler2D surroundings, SHADOW_IMAGES, ivec2 light_range, vec2 corner, int slice)
+                          sampler2D surroundings, sampler2D light_gaussians, ivec2 light_range, vec2 corner, int slice)
 {
     vec3 through = ray_through(camera, corner * s.cell);
     vec3 direction = through / length(through);

@@ -34,7 +34,6 @@ uniform ivec2 light_range;
 uniform sampler2D distances;
 uniform sampler2D lights;
 uniform sampler2D surroundings;
-uniform sampler2D gaussians;
 uniform sampler2D light_gaussians;
 writeonly uniform image2D result;
 
@@ -45,6 +44,6 @@ void main()
     if (texel.x >= brume_grid.x || texel.y >= brume_grid.y || slice > settings.slices)
         return;
     imageStore(result, texel,
-               scattered_texel(brume_medium, brume_camera, settings, distances, lights, surroundings, SHADOW_PASSED, light_range,
+               scattered_texel(brume_medium, brume_camera, settings, distances, lights, surroundings, light_gaussians, light_range,
                                vec2(texel - scattered_corner(settings, slice)), slice));
 }

@@ -144,8 +144,10 @@ TEST_P(SurfaceOn, AnyNumberOfGaussiansLiesOnTheWayFromLights)
             };
             const Picture few = with(near), many = with(all);
             const Worst worst = compare(many, few, 0.05);
-            EXPECT_LT(worst.error, 1e-5) << light << worst.describe();
-            EXPECT_GT(compare(few, frame.color, 0.05).error, 0.1) << light;
+            const double change = compare(few, frame.color, 0.05).error;
+            EXPECT_GT(change, 1e-3) << light;
+            // Among more Gaussians cells are smaller, and list fewer of those that a ray passes at a distance.
+            EXPECT_LT(worst.error, 1e-2 * change) << light << worst.describe();
         }
 }
 

@@ -16,7 +16,7 @@ struct Constants {
 };
 
 namespace make {
-enum Slot { distances, lights, surroundings, gaussians, light_gaussians, result, slot_count };
+enum Slot { distances, lights, surroundings, light_gaussians, result, slot_count };
 }
 
 namespace add {

@@ -88,14 +88,14 @@ brume_status make_rows(const brume_plugin_rows *call, int32_t first, int32_t las
     const Camera camera = camera_of(*call->scene);
     const brume_plugin_pixels *slots = call->slots;
     const Texture distances = texture_of(slots[make::distances]), lights = texture_of(slots[make::lights]),
-                  surroundings = texture_of(slots[make::surroundings]), gaussians = texture_of(slots[make::gaussians]),
+                  surroundings = texture_of(slots[make::surroundings]),
                   light_gaussians = texture_of(slots[make::light_gaussians]);
     return for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 texel(x, y);
         const int slice = y / s.rows * s.across + x / s.columns;
         if (slice <= s.slices)
             store(slots[make::result], x, y,
-                  scattered_texel(medium, camera, s, distances, lights, surroundings, SHADOW_PASSED, constants.light_range,
+                  scattered_texel(medium, camera, s, distances, lights, surroundings, light_gaussians, constants.light_range,
                                   vec2(texel - scattered_corner(s, slice)), slice));
     });
 }

@@ -28,8 +28,8 @@ constexpr int cells = 40;  // along the longer side
 constexpr int widest = 8192;
 constexpr double least_error = 0.005;
 
-constexpr brume_slot make_slots[] = {fetch("distances"), fetch("lights"),          fetch("surroundings"),
-                                     fetch("gaussians"), fetch("light_gaussians"), write("result")};
+constexpr brume_slot make_slots[] = {fetch("distances"), fetch("lights"), fetch("surroundings"), fetch("light_gaussians"),
+                                     write("result")};
 static_assert(std::size(make_slots) == scattered::make::slot_count);
 
 constexpr brume_slot add_slots[] = {fetch("depth"),          fetch("gaussian_density"),  fetch("tiles"),
@@ -168,7 +168,6 @@ brume_status add_rescattered(const brume_services &services, brume_host host, co
         images[distances] = of.distances;
         images[lights] = product(product_lights);
         images[surroundings] = state.surroundings;
-        images[gaussians] = product(product_gaussians);
         images[light_gaussians] = product(product_light_gaussians);
         images[result] = of.grid;
         const ivec2 size = grid_size(of.settings);
