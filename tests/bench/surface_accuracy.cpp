@@ -62,9 +62,12 @@ double brought(const Sample &s, int method, double own, double kept)
 {
     SurfaceSettings settings{};
     settings.method = method;
-    return lit_by_lamp(s.scene.medium, settings, s.surface, s.lamp, s.material, {}, surface_tables::of(method), vec3(own))
-               .x -
-           own * kept;
+    settings.material = 2;
+    const Medium &medium = s.scene.medium;
+    const Change change = change_by_light(medium, lamp_colours(medium), settings, s.surface, s.lamp, s.material,
+                                          shine_of(s.surface, s.material), terms_to_light(medium, s.lamp, s.surface.point),
+                                          surface_tables::of(method));
+    return becomes(change, vec3(own)).x - own * kept;
 }
 
 // The paper's coefficients of depth 1 at another.
