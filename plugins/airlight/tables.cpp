@@ -60,13 +60,16 @@ double sun_function(double u, double v)
     return sum;
 }
 
-std::vector<float> sun_table()
+const std::vector<float> &sun_table()
 {
-    const int n = maths_double::sun_table_size;
-    std::vector<float> table;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-            table.push_back(float(sun_function(maths_double::sun_table_limit * i / (n - 1), pi / 2 * j / (n - 1))));
+    static const std::vector<float> table = [] {
+        const int n = maths_double::sun_table_size;
+        std::vector<float> values;
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i)
+                values.push_back(float(sun_function(maths_double::sun_table_limit * i / (n - 1), pi / 2 * j / (n - 1))));
+        return values;
+    }();
     return table;
 }
 
@@ -86,14 +89,17 @@ std::array<double, 6> psf_coefficients(double depth)
     return c;
 }
 
-std::vector<float> environment_table()
+const std::vector<float> &environment_table()
 {
-    std::vector<float> table;
-    for (int k = 0; k < maths_double::environment_table_size; ++k) {
-        const auto c = psf_coefficients(maths_double::environment_thinnest * std::exp2(k / 4.0));
-        for (unsigned l = 0; l < 8; ++l)
-            table.push_back(l < 6 ? float(std::sqrt(4 * pi / (2 * l + 1)) * c[l]) : 0.0f);
-    }
+    static const std::vector<float> table = [] {
+        std::vector<float> values;
+        for (int k = 0; k < maths_double::environment_table_size; ++k) {
+            const auto c = psf_coefficients(maths_double::environment_thinnest * std::exp2(k / 4.0));
+            for (unsigned l = 0; l < 8; ++l)
+                values.push_back(l < 6 ? float(std::sqrt(4 * pi / (2 * l + 1)) * c[l]) : 0.0f);
+        }
+        return values;
+    }();
     return table;
 }
 

@@ -5,8 +5,8 @@
 
 namespace brume::airlight {
 
-// F(u, v) of Sun et al. 2005 eq. 10 as shaders/lib/airlight_sun.glsl reads it: one channel, row by row of v.
-std::vector<float> sun_table();
+// F(u, v) of Sun et al. 2005 eq. 10 as shaders/lib/airlight_sun.glsl reads it: one channel, row by row of v. Made once.
+const std::vector<float> &sun_table();
 double sun_function(double u, double v);
 
 // e^z E1(z), Re z >= 0, z != 0: neither over- nor underflows.
@@ -16,7 +16,7 @@ std::complex<double> scaled_exponential_integral(std::complex<double> z);
 // and alike in all directions (Sun et al. 2005 eq. 12). Zhou et al. have those of T = 1.
 std::array<double, 6> psf_coefficients(double depth);
 
-// As shaders/lib/environment.glsl reads it: four channels.
-std::vector<float> environment_table();
+// As shaders/lib/environment.glsl reads it: four channels. Made once.
+const std::vector<float> &environment_table();
 
 }  // namespace brume::airlight

@@ -283,7 +283,7 @@ TEST(AirlightTables, SunTableIsTheImaginaryPartOfAnExponentialIntegral)
             EXPECT_NEAR(brume::airlight::sun_function(u, v), (std::exp(i * u) * (e1(z) - e1(i * u))).imag(), 1e-12);
         }
     EXPECT_DOUBLE_EQ(brume::airlight::sun_function(0, 1), 1);
-    const std::vector<float> table = brume::airlight::sun_table();
+    const std::vector<float> &table = brume::airlight::sun_table();
     const f32::Texture image{table.data(), 1024, 1024, 4, 1};
     double worst = 0;
     for (double u = 0; u <= 10; u += 0.037)
@@ -329,7 +329,7 @@ TEST(AirlightTables, SpreadCoefficientsAreThoseOfThePaperAtDepthOne)
 
 TEST(AirlightEnvironment, IsTheConvolutionWithTheMediumsSpread)
 {
-    const std::vector<float> table = brume::airlight::environment_table();
+    const std::vector<float> &table = brume::airlight::environment_table();
     const f32::Texture table_image{table.data(), 1024 * 4, 1024, 1, 4};
     f32::Camera camera{};
     camera.right = {0, 0, -1};  // turned, so that a mixed up frame shows

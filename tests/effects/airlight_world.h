@@ -107,7 +107,7 @@ public:
         if (tier == narrow::airlight_fogshop && blob_density_.empty())
             for (int i = 0; i < settings.gaussian_count * (1 + settings.light_count); ++i)
                 blob_density_.push_back(narrow::blob_density_at(medium_, camera_, settings, SHADOW_PASSED, lights, i));
-        static const std::vector<float> table = brume::airlight::sun_table();
+        const std::vector<float> &table = brume::airlight::sun_table();
         const narrow::Texture blob_density = image(blob_density_, 1), sun_table = image(table, 1),
                               surroundings = image(surroundings_, 4);
         const narrow::Sight sight{narrow::vec3(case_.direction), float(case_.distance), 0, int(seen_.size())};

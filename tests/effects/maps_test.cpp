@@ -198,6 +198,18 @@ TEST(AirlightMaps, OfSunsAreFittedToWhatIsSeen)
     EXPECT_LT(e.p95, 2e-2);
 }
 
+// A side of a map that far away is narrower than doubles tell apart.
+TEST(AirlightMaps, OfAGaussianOfNoWidthIsFinite)
+{
+    const Frame frame = lit_frame(16, 12);
+    const Json sideways{{"type", "directional"}, {"direction", {1, 0, 0}}, {"intensity", 3}},
+        density = Json::array({gaussian({0, 0, -1000}, 1e18, 1), constant(0.05)});
+    const Errors e = errors(airlight_of(cpu(), with(scene_of(density, Json::array({sideways})), "tier", "maps"), frame),
+                            airlight_of(cpu(), with(scene_of(density, Json::array({sideways})), "tier", "nodes"), frame));
+    report("no width", e);
+    EXPECT_LT(e.worst, 1e-2);
+}
+
 TEST(AirlightMaps, SumsAgreeWithEachLight)
 {
     const Frame frame = lit_frame(320, 200);

@@ -60,13 +60,19 @@ struct Square {
     }
 };
 
+// Of a side, in metres: what single precision tells apart that far away.
+double least_width(double at)
+{
+    return 1e-6 * std::max(1.0, std::abs(at));
+}
+
 // Returns false where nothing is lit.
 bool set_range(Frame &frame, double near, double far)
 {
     if (!(near < far))
         return false;
     frame.near = float(near);
-    frame.far = float(std::max(far, near + 1e-6 * std::max(1.0, std::abs(near))));
+    frame.far = float(std::max(far, near + least_width(near)));
     return true;
 }
 
@@ -174,10 +180,11 @@ Frame Fit::across(const brume_plugin_light &light) const
         return frame;
     vec3 size;
     for (int i = 0; i < 3; ++i) {
-        const double step = std::exp2(std::floor(std::log2((lit_high[i] - lit_low[i]) / steps_a_side))),
+        const double width = std::max(lit_high[i] - lit_low[i], least_width(lit_low[i])),
+                     step = std::exp2(std::floor(std::log2(width / steps_a_side))),
                      first = std::floor((lit_low[i] - low[i]) / step);
         frame.after[i] = first * step;
-        size[i] = (std::ceil((lit_high[i] - low[i]) / step) - first) * step;
+        size[i] = (std::ceil((lit_low[i] + width - low[i]) / step) - first) * step;
     }
     frame.u = in_world(*scene.camera, u);
     frame.v = in_world(*scene.camera, v);
