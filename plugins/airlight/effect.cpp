@@ -8,9 +8,11 @@
 
 #include "encounters.h"
 #include "layers.h"
+#include "order.h"
 #include "orders.h"
 #include "passes.h"
 #include "scene_maths.hpp"
+#include "settings.h"
 #include "state.h"
 
 namespace airlight {
@@ -210,6 +212,9 @@ brume_status Planner::plan_gather()
     state.scattered.used = takes_grid(state, scene_);
     if (state.maps.used)
         if (brume_status s = plan_maps(services_, host_, scene_, maps, state))
+            return s;
+    if (!state.maps.used && tier_of(state) == brume::maths_float::airlight_nodes)
+        if (brume_status s = plan_order(services_, host_, scene_, state))
             return s;
     state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
     if (state.has_blobs)

@@ -18,17 +18,18 @@ struct Pass {
     scalar::Camera camera;
     scalar::ivec2 light_range;
     scalar::Texture depth, gaussian_density, tiles, gaussians, lights, tile_gaussians, light_gaussians, blob_density,
-        sun_table, surroundings, environment, environment_table, light_shadows, shadow_maps;
+        sun_table, surroundings, environment, environment_table, light_shadows, shadow_maps, lamp_order;
     bool green_as_red, blue_as_green;
 
     explicit Pass(const brume_plugin_rows &call)
         : constants(*static_cast<const Constants *>(call.constants)), settings(constants.airlight),
           medium(scalar::medium_of(*call.scene)), camera(scalar::camera_of(*call.scene)), light_range(constants.light_range)
     {
-        scalar::Texture *const textures[] = {&depth,          &gaussian_density,  &tiles,         &gaussians,  &lights,
-                                             &tile_gaussians, &light_gaussians,   &blob_density,  &sun_table,  &surroundings,
-                                             &environment,    &environment_table, &light_shadows, &shadow_maps};
-        static_assert(gather::depth == 0 && gather::shadow_maps + 1 == std::size(textures));
+        scalar::Texture *const textures[] = {&depth,         &gaussian_density, &tiles,           &gaussians,
+                                             &lights,        &tile_gaussians,   &light_gaussians, &blob_density,
+                                             &sun_table,     &surroundings,     &environment,     &environment_table,
+                                             &light_shadows, &shadow_maps,      &lamp_order};
+        static_assert(gather::depth == 0 && gather::lamp_order + 1 == std::size(textures));
         for (size_t i = 0; i < std::size(textures); ++i)
             *textures[i] = scalar::texture_of(call.slots[i]);
         const scalar::vec3 extinction = medium.scattering + medium.absorption;
@@ -110,12 +111,13 @@ brume_status for_sights(const Pass &pass, const brume_plugin_rows &call, int32_t
     return for_pixels(call, first, last, [&](int x, int y) {
         const ivec2 pixel = representative(ivec2(x, y), pass.constants.reduction, size);
         const Ray ray = pixel_ray(pass.camera, pixel_centre(pixel.x, pixel.y), texelFetch(pass.depth, pixel, 0).x);
+        const int ordered = pass.constants.ordered, order = ordered > 0 ? ordered * tile_index(size.x, pixel) : -1;
         Airlight a{vec3(0), vec3(0)};
         if (!ray.keep) {
             const ivec2 range = pass.settings.gaussian_count > 0 ? tile_range(pass.tiles, size.x, pixel) : ivec2(0);
             const Sight sight{ray.direction, ray.distance, range.x, range.y};
             a = finished(pass, ray, pixel, sight,
-                         sight.count <= pass.settings.dense_from ? by_nodes(sight) : dense_at(pass, sight));
+                         sight.count <= pass.settings.dense_from ? by_nodes(sight, order) : dense_at(pass, sight));
         }
         store(radiance, x, y, vec4(a.radiance, 1.0f));
         if (error.data)

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "order.h"
 #include "settings.h"
 #include "state.h"
 
@@ -22,11 +23,18 @@ static_assert(std::size(blobs_slots) == blobs::slot_count);
 constexpr brume_slot around_slots[] = {fetch("depth"), fetch("lights"), write("surroundings")};
 static_assert(std::size(around_slots) == around::slot_count);
 
+constexpr brume_slot bounds_slots[] = {fetch("depth"), fetch("tiles"), fetch("lights"), write("bounds")};
+static_assert(std::size(bounds_slots) == bounds::slot_count);
+
+constexpr brume_slot order_slots[] = {fetch("bounds"), write("lamp_order")};
+static_assert(std::size(order_slots) == order::slot_count);
+
 constexpr brume_slot gather_slots[] = {
-    fetch("depth"),          fetch("gaussian_density"),  fetch("tiles"),         fetch("gaussians"),   fetch("lights"),
-    fetch("tile_gaussians"), fetch("light_gaussians"),   fetch("blob_density"),  fetch("sun_table"),   fetch("surroundings"),
-    fetch("environment"),    fetch("environment_table"), fetch("light_shadows"), fetch("shadow_maps"), write("radiance"),
-    write("error"),          write("distances")};
+    fetch("depth"),         fetch("gaussian_density"), fetch("tiles"),           fetch("gaussians"),
+    fetch("lights"),        fetch("tile_gaussians"),   fetch("light_gaussians"), fetch("blob_density"),
+    fetch("sun_table"),     fetch("surroundings"),     fetch("environment"),     fetch("environment_table"),
+    fetch("light_shadows"), fetch("shadow_maps"),      fetch("lamp_order"),      write("radiance"),
+    write("error"),         write("distances")};
 static_assert(std::size(gather_slots) == gather::slot_count);
 
 constexpr brume_slot compose_slots[] = {fetch("color"),
@@ -48,7 +56,8 @@ constexpr brume_constant constants_table[] = {BRUME_AIRLIGHT_SETTINGS(Constants)
                                               BRUME_CONSTANT_OF(Constants, around, height),
                                               BRUME_CONSTANT(Constants, size),
                                               BRUME_CONSTANT(Constants, light_range),
-                                              BRUME_CONSTANT(Constants, reduction)};
+                                              BRUME_CONSTANT(Constants, reduction),
+                                              BRUME_CONSTANT(Constants, ordered)};
 
 template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
 {
@@ -87,6 +96,7 @@ public:
 
     brume_status blobs();
     brume_status around();
+    brume_status order();
     brume_status gather_all(brume_plugin_image radiance, brume_plugin_image error);
     brume_status gather_light(uint32_t light, brume_plugin_image radiance);
     brume_status compose();
@@ -132,6 +142,30 @@ brume_status Frame::around()
                          (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, nullptr);
 }
 
+brume_status Frame::order()
+{
+    const ivec2 tiles = (constants_.size + brume::maths_float::tile_size - 1) / brume::maths_float::tile_size;
+    const int lights = constants_.airlight.light_count;
+    // Frames may come with more lights than the plan had.
+    if (lights < 2 || int64_t(tiles.x) * tiles.y * lights > state_.order_texels)
+        return BRUME_OK;
+    constants_.ordered = lights;
+    {
+        using namespace airlight::bounds;
+        brume_plugin_image images[slot_count] = {};
+        images[depth] = frame_.depth;
+        images[airlight::bounds::tiles] = product(product_gaussians, 1);
+        images[airlight::bounds::lights] = product(product_lights);
+        images[airlight::bounds::bounds] = state_.lamp_bounds;
+        if (brume_status s = services_.run(host_, state_.bounds, images, &constants_, tiles.x, tiles.y, nullptr))
+            return s;
+    }
+    brume_plugin_image images[airlight::order::slot_count] = {};
+    images[airlight::order::bounds] = state_.lamp_bounds;
+    images[airlight::order::lamp_order] = state_.lamp_order;
+    return services_.run(host_, state_.order, images, &constants_, lights, tiles.x * tiles.y, nullptr);
+}
+
 brume_status Frame::gather(const Constants &constants, brume_plugin_image to, brume_plugin_image to_error,
                            brume_plugin_image to_distances)
 {
@@ -151,6 +185,7 @@ brume_status Frame::gather(const Constants &constants, brume_plugin_image to, br
     images[environment_table] = state_.environment_table;
     images[light_shadows] = product(product_light_shadows);
     images[shadow_maps] = product(product_light_shadows, 1);
+    images[lamp_order] = constants.ordered > 0 ? state_.lamp_order : nullptr;
     images[radiance] = to;
     images[error] = to_error;
     images[distances] = to_distances;
@@ -170,6 +205,7 @@ brume_status Frame::gather_light(uint32_t light, brume_plugin_image radiance)
     Constants constants = constants_;
     constants.airlight.environment_order = 0;
     constants.light_range = state_.lit ? ivec2(int(light), int(light) + 1) : ivec2(0);
+    constants.ordered = 0;
     constants.reduction = 1;
     return gather(constants, radiance, nullptr, nullptr);
 }
@@ -234,6 +270,14 @@ brume_status create_passes(const brume_services &services, brume_host host, uint
         if (brume_status s = create(services, host, pass("around", around_slots, 1), "airlight_surroundings.comp",
                                     pass_text("airlight_surroundings.comp"), "", around_rows, state.around))
             return s;
+    if (state.lamp_order) {
+        if (brume_status s = create(services, host, pass("gather", bounds_slots, 1), "airlight_lamp_bounds.comp",
+                                    pass_text("airlight_lamp_bounds.comp"), "", bounds_rows, state.bounds))
+            return s;
+        if (brume_status s = create(services, host, pass("gather", order_slots, 64), "airlight_lamp_order.comp",
+                                    pass_text("airlight_lamp_order.comp"), "", order_rows, state.order))
+            return s;
+    }
     return create(services, host, pass("compose", compose_slots, 8), "airlight_compose.comp",
                   pass_text("airlight_compose.comp"),
                   define("LIT", state.lit) + define("ATTENUATES", state.attenuates) + define("LAYERED", state.layered) +
@@ -251,6 +295,9 @@ brume_status run_passes(const brume_services &services, brume_host host, const b
     }
     if (state.around)
         if (brume_status s = passes.around())
+            return s;
+    if (state.lamp_order)
+        if (brume_status s = passes.order())
             return s;
     if (state.lit)
         if (brume_status s = gather_all(services, host, frame, passes, state))

@@ -15,6 +15,7 @@ struct Constants {
     brume::maths_float::ivec2 size;         // of the full images
     brume::maths_float::ivec2 light_range;  // the lights [x, y) that are gathered
     int32_t reduction;
+    int32_t ordered;  // lights in each tile's order; 0: there is none
     // What shaders have as defines.
     int32_t tier;
     int32_t lit;
@@ -46,6 +47,7 @@ enum Slot {
     environment_table,
     light_shadows,
     shadow_maps,
+    lamp_order,
     radiance,
     error,
     distances,

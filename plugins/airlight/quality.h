@@ -13,6 +13,7 @@ template <class Settings> void set_quality(Settings &settings, double max_error)
     settings.dense_from = max_error >= 0.005 ? 1 : max_error >= 0.001 ? 8 : 64;
     settings.cells = max_error > 0.05 ? 16 : 32;
     settings.near_radii = 2;
+    settings.spared = Real(0.1 * max_error);
 }
 
 }  // namespace brume::airlight

@@ -62,12 +62,12 @@ brume_status gather_rows(const brume_plugin_rows *call, int32_t first, int32_t l
                   environment = texture_of(slots[gather::environment]),
                   environment_table = texture_of(slots[gather::environment_table]),
                   light_shadows = texture_of(slots[gather::light_shadows]),
-                  shadow_maps = texture_of(slots[gather::shadow_maps]);
+                  shadow_maps = texture_of(slots[gather::shadow_maps]), lamp_order = texture_of(slots[gather::lamp_order]);
     const brume_plugin_pixels &error = slots[gather::error], &distances = slots[gather::distances];
     return for_pixels(*call, first, last, [&](int x, int y) {
         const ivec2 pixel = representative(ivec2(x, y), constants.reduction, constants.size);
         const Airlight a = airlight_at(constants.tier, medium, camera, constants.airlight, AIRLIGHT_PIXEL_PASSED, pixel,
-                                       constants.size, constants.light_range);
+                                       constants.size, constants.ordered, constants.light_range);
         store(slots[gather::radiance], x, y, vec4(a.radiance, 1.0f));
         if (error.data)
             store(error, x, y, vec4(a.error, 1.0f));

@@ -10,7 +10,7 @@
         BRUME_CONSTANT_OF(Struct, airlight, dense_from), BRUME_CONSTANT_OF(Struct, airlight, cells),                        \
         BRUME_CONSTANT_OF(Struct, airlight, tolerance), BRUME_CONSTANT_OF(Struct, airlight, near_radii),                    \
         BRUME_CONSTANT_OF(Struct, airlight, culled), BRUME_CONSTANT_OF(Struct, airlight, orders),                           \
-        BRUME_CONSTANT_OF(Struct, airlight, shadowed)
+        BRUME_CONSTANT_OF(Struct, airlight, shadowed), BRUME_CONSTANT_OF(Struct, airlight, spared)
 
 namespace airlight {
 

@@ -60,6 +60,9 @@ struct State {
     brume_plugin_image environment_table = nullptr;
     int environment_order = 0;
     brume_plugin_image surroundings = nullptr;  // with Orders::all
+    brume_plugin_image lamp_bounds = nullptr;
+    brume_plugin_image lamp_order = nullptr;
+    int64_t order_texels = 0;  // that those hold
 
     // Refreshed when something moved.
     brume_plugin_image environment = nullptr;  // its coefficients
@@ -77,6 +80,8 @@ struct State {
     // NULL: not needed.
     brume_pass blobs = nullptr;
     brume_pass around = nullptr;
+    brume_pass bounds = nullptr;
+    brume_pass order = nullptr;
     brume_pass gather = nullptr;
     brume_pass compose = nullptr;
 };

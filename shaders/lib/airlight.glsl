@@ -23,6 +23,7 @@ struct AirlightSettings {
     float culled;          // share of the airlight that may be missing by what the lists leave out
     int orders;
     int shadowed;          // 1: some light has a shadow map
+    float spared;          // share of a pixel's light that those lights may have which it leaves out
 };
 
 struct Airlight {

@@ -350,15 +350,25 @@ PURE Airlight light_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSe
     return total;
 }
 
+// lamp_order, order: lamp_order.glsl; -1: the lights in their own order, all of them.
 PURE Airlight airlight_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_IMAGES,
-                                IN(Sight) sight, int first_light, int last_light)
+                                IN(Sight) sight, sampler2D lamp_order, int order, int first_light, int last_light)
 {
     Airlight total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
     bool has_terms = medium.constant > R(0.0) || medium.term_count > 0;
     vec3 terms = has_terms ? terms_range(medium, sight) : vec3(R(0.0));
     float end = min(sight.distance, quadrature_limit);
     float reach = sight.count > 0 ? end : terms.y;
-    for (int l = first_light; l < last_light; ++l) {
+    for (int i = first_light; i < last_light; ++i) {
+        int l = i;
+        if (order >= 0) {
+            vec4 place = data_texel(lamp_order, order + i);
+            if (place.y <= settings.spared * (total.radiance.x + total.radiance.y + total.radiance.z) / R(3.0)) {
+                total.error += vec3(place.y);
+                break;
+            }
+            l = int(place.x);
+        }
         Light light = light_at(lights, l);
         Aspect aspect = aspect_of(light, sight.direction);
         ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, settings.shadowed, l, sight.direction, reach);

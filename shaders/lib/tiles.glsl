@@ -25,11 +25,16 @@ PURE Bool passed_by(IN(Medium) medium, IN(Gaussian) g, IN(Profile) along)
     return along.peak <= share * g.amplitude && R(1.77245385091) * most * along.peak <= share * g.scale;
 }
 
+PURE int tile_index(int width, ivec2 pixel)
+{
+    int columns = (width + tile_size - 1) / tile_size;
+    return (pixel.y / tile_size) * columns + pixel.x / tile_size;
+}
+
 // First entry of the pixel's list and their number.
 PURE ivec2 tile_range(sampler2D tiles, int width, ivec2 pixel)
 {
-    int columns = (width + tile_size - 1) / tile_size;
-    vec4 range = data_texel(tiles, (pixel.y / tile_size) * columns + pixel.x / tile_size);
+    vec4 range = data_texel(tiles, tile_index(width, pixel));
     return ivec2(int(range.x), int(range.y));
 }
 

@@ -38,6 +38,7 @@ uniform AirlightSettings airlight;
 uniform ivec2 size;  // of the full images
 uniform int reduction;
 uniform ivec2 light_range;
+uniform int ordered;
 uniform sampler2D depth;
 uniform sampler2D gaussian_density;
 uniform sampler2D tiles;
@@ -52,6 +53,7 @@ uniform sampler2D environment;
 uniform sampler2D environment_table;
 uniform sampler2D light_shadows;
 uniform sampler2D shadow_maps;
+uniform sampler2D lamp_order;
 writeonly uniform image2D radiance;
 writeonly uniform image2D error;
 writeonly uniform image2D distances;
@@ -67,7 +69,8 @@ void main()
         settings.shadowed = 0;
     if (ORDERS == 0)
         settings.orders = orders_single;
-    Airlight a = airlight_at(TIER, brume_medium, brume_camera, settings, AIRLIGHT_PIXEL_PASSED, pixel, size, light_range);
+    Airlight a = airlight_at(TIER, brume_medium, brume_camera, settings, AIRLIGHT_PIXEL_PASSED, pixel, size,
+                             ordered, light_range);
     imageStore(radiance, p, vec4(a.radiance, 1.0));
     imageStore(error, p, vec4(a.error, 1.0));
     Ray ray = pixel_ray(brume_camera, vec2(pixel) + 0.5, texelFetch(depth, pixel, 0).r);

@@ -69,6 +69,37 @@ public:
     // The ray's list holds these only; shadows are still of all.
     void see_only(const std::vector<int> &gaussians) { seen_.assign(gaussians.begin(), gaussians.end()); }
 
+    // Lights in the order that a tile of these rays has.
+    void order_for(const narrow::TileRays &rays)
+    {
+        std::vector<float> bounds;
+        for (int l = 0; l < settings.light_count; ++l)
+            bounds.push_back(bound_of(rays, l));
+        const narrow::Texture all = image(bounds, 1);
+        lamp_order_.resize(2 * bounds.size());
+        for (int l = 0; l < settings.light_count; ++l) {
+            const narrow::vec2 place = narrow::lamp_place(all, 0, settings.light_count, l);
+            lamp_order_[2 * size_t(place.x)] = float(l);
+            lamp_order_[2 * size_t(place.x) + 1] = place.y;
+        }
+    }
+
+    // Light number i of the order and those behind it, at most.
+    double rest(int i) const { return lamp_order_[2 * size_t(i) + 1]; }
+
+    float bound_of(const narrow::TileRays &rays, int light) const
+    {
+        const narrow::Light l = narrow::light_at(image(lights_, 4), light);
+        const narrow::LampSight lamp = narrow::lamp_sight(medium_, rays, l);
+        const float reach = std::min(narrow::tile_reach(medium_, rays), rays.distance);
+        float sum = 0;
+        for (int i = 0; i < narrow::tile_pieces; ++i)
+            sum += narrow::most_of_piece(
+                medium_, l, lamp,
+                narrow::ray_piece(medium_, rays, narrow::piece_end(rays, reach, i), narrow::piece_end(rays, reach, i + 1)));
+        return narrow::lamp_bound(medium_, l, sum);
+    }
+
     // A map of this light (one at most), and where it looks: as brume_plugin_light from shadow_rows on.
     void add_shadow(int light, const std::array<float, 16> &projection, narrow::Texture map)
     {
@@ -111,7 +142,8 @@ public:
         const narrow::Texture blob_density = image(blob_density_, 1), sun_table = image(table, 1),
                               surroundings = image(surroundings_, 4);
         const narrow::Sight sight{narrow::vec3(case_.direction), float(case_.distance), 0, int(seen_.size())};
-        return narrow::airlight_of_tier(tier, medium_, camera_, settings, AIRLIGHT_PASSED, sight, 0, settings.light_count);
+        return narrow::airlight_of_tier(tier, medium_, camera_, settings, AIRLIGHT_PASSED, sight, image(lamp_order_, 2),
+                                        lamp_order_.empty() ? -1 : 0, 0, settings.light_count);
     }
 
     // int rho dt of the Gaussians between a light (-1: the camera) and a point.
@@ -155,7 +187,7 @@ private:
     narrow::Medium medium_;
     narrow::Camera camera_{};
     int shadow_width_ = 0;
-    std::vector<float> shadow_map_, light_shadows_, gaussians_, lights_, light_gaussians_, seen_, blob_density_,
+    std::vector<float> lamp_order_, shadow_map_, light_shadows_, gaussians_, lights_, light_gaussians_, seen_, blob_density_,
         surroundings_;
 };
 
