@@ -62,9 +62,9 @@ TEST(LampOrder, NoLightSendsMoreThanItsBound)
         const narrow::TileRays rays = tile_around(dice, c);
         const World world(c);
         for (int l = 0; l < int(c.lights.size()); ++l) {
-            const auto exact = brume::airlight::reference_airlight({c.medium, {}, c.lights}, c.direction, c.distance, l, l + 1,
-                                                                   1e-4)
-                                   .radiance;
+            const auto exact =
+                brume::airlight::reference_airlight({c.medium, {}, c.lights}, c.direction, c.distance, l, l + 1, 1e-4)
+                    .radiance;
             const double most = std::max({exact.x, exact.y, exact.z}), bound = world.bound_of(rays, l);
             ASSERT_LE(most, bound + 1e-30) << "case " << i << ", light " << l;
             if (most > 1e-25)
@@ -118,7 +118,8 @@ TEST(LampOrder, NoPixelMovesByMoreThanItsShare)
 namespace fog {
 namespace {
 
-// A street of lanterns in dense fog, a spot among them, with walls, a post and the sky; and, where asked, a puff in a corner.
+// A street of lanterns in dense fog, a spot among them, with walls, a post and the sky; and, where asked, a puff in a
+// corner.
 Json avenue(bool puff = false)
 {
     Json lamps = Json::array();
@@ -127,8 +128,10 @@ Json avenue(bool puff = false)
         lamp["intensity"] = {9 + i % 5, 6, 3};
         lamps.push_back(lamp);
     }
-    lamps.push_back({{"type", "spot"}, {"position", {0, 4, -9}}, {"direction", {0, -1, 0}}, {"intensity", 20}, {"angle", 70}});
-    Json density = Json::array({constant(0.4), {{"type", "exponential"}, {"value", 1}, {"falloff", 0.2}, {"direction", {0, 1, 0}}}});
+    lamps.push_back(
+        {{"type", "spot"}, {"position", {0, 4, -9}}, {"direction", {0, -1, 0}}, {"intensity", 20}, {"angle", 70}});
+    Json density =
+        Json::array({constant(0.4), {{"type", "exponential"}, {"value", 1}, {"falloff", 0.2}, {"direction", {0, 1, 0}}}});
     if (puff)
         density.push_back(gaussian({3, 2, -8}, 1.2, 2));
     return lit_scene({{"scattering", {0.12, 0.12, 0.13}}, {"absorption", 0.01}, {"g", 0.7}, {"density", density}}, lamps,
@@ -165,8 +168,9 @@ TEST(LampOrder, PicturesAreThoseOfAllLightsAndShowNoTiles)
                     of_colour += alone.at(x, y)[c];
                 all += of_colour / 3;
                 found += r.airlight.at(x, y)[c] / 3;
-                uncovered = std::max(uncovered, (std::abs(of_colour - r.airlight.at(x, y)[c]) - r.airlight_error.at(x, y)[c]) /
-                                                    std::max(of_colour, floor));
+                uncovered =
+                    std::max(uncovered, (std::abs(of_colour - r.airlight.at(x, y)[c]) - r.airlight_error.at(x, y)[c]) /
+                                            std::max(of_colour, floor));
             }
             const double by = (all - found) / std::max(all, floor);
             moved.at(x, y)[0] = float(by);
