@@ -130,3 +130,17 @@ PURE vec4 grid_fetch(sampler2D image, ivec2 corner, ivec2 size, vec2 position)
     part.data = texel_at(image, corner.x, corner.y);
     return fetch_linear(part, Region{size, 0}, clamp(position, vec2(real(0)), vec2(size - 1)));
 }
+
+PURE vec4 grid_fetch_agreed(sampler2D image, ivec2 corner, ivec2 size, vec2 position, real otherwise)
+{
+    vec4 v = grid_fetch(image, corner, size, position);
+    const ivec2 first = texel_below(clamp(position, vec2(real(0)), vec2(size - 1)));
+    auto around = [&](int i, int j) {
+        const ivec2 texel = corner + min(first + ivec2(i, j), size - 1);
+        return texel_at(image, texel.x, texel.y)[3];
+    };
+    v.w = around(0, 0);
+    if (around(1, 0) != v.w || around(0, 1) != v.w || around(1, 1) != v.w)
+        v.w = otherwise;
+    return v;
+}

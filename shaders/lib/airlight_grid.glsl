@@ -97,8 +97,8 @@ PURE vec3 lit_by_grid(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
                     sampler2D attenuation_frames, sampler2D lights
 #define GRID_PASSED slices, grid_density, grid_lights, attenuation, attenuation_frames, lights
 
-// The same of any lights, of whose light the grid has the sum, of the whole grid. Where that is not smooth, and in the step that the
-// ray ends in, each light is looked up.
+// The same of any lights, of whose light the grid has the sum, of the whole grid. Those that are not smooth, and in the step that the
+// ray ends in all, are looked up by themselves.
 PURE vec3 lit_by_sums(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, GRID_IMAGES, int first, int last, vec2 place,
                       vec3 direction, float distance)
 {
@@ -123,20 +123,25 @@ PURE vec3 lit_by_sums(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, 
             vec3 scattered = min(medium.scattering * (vec3(step.y, step.z, step.w) + vec3(of_terms)), vec3(radiance_limit)) *
                              grid_mean_exponential(s, extinction * mass);
             float before = clamp(density.x + terms, R(0.0), density_limit);
-            vec4 given = grid_fetch(grid_lights, grid_corner(s, k), size, place);
+            vec4 given = grid_fetch_agreed(grid_lights, grid_corner(s, k), size, place, all_apart);
             vec3 arriving = exp(vec3(given) - optical_depth(medium, before));
-            Bool apart = mass > R(0.0) && (!(given.w > least_smooth) || to < next);
-            if (some(apart)) {
+            float apart = choose(mass > R(0.0), choose(to < next, all_apart, given.w), R(0.0));
+            if (some(apart > R(0.0))) {
                 vec3 sum = vec3(R(0.0));
                 for (int i = first; i < last; ++i) {
+                    Bool by_itself = is_apart(apart, i - first);
+                    if (!some(by_itself))
+                        continue;
                     Light light = light_at(lights, i);
                     AttenuationFrame frame = attenuation_frame(attenuation_frames, i);
                     Aspect aspect = aspect_to(light, direction);
                     float density_a = attenuation_density(frame, attenuation, s.side, s.nodes, i - s.mapped, light, from * direction);
                     float density_b = attenuation_density(frame, attenuation, s.side, s.nodes, i - s.mapped, light, to * direction);
-                    sum += light_of_step(medium, s, light, aspect, direction, from, to, mass, density_a, density_b);
+                    sum += choose(by_itself, light_of_step(medium, s, light, aspect, direction, from, to, mass, density_a, density_b),
+                                  vec3(R(0.0)));
                 }
-                arriving = choose(apart, min(sum, vec3(radiance_limit)) * grid_transmittance(medium, s, before), arriving);
+                vec3 of_sum = choose(apart < all_apart, arriving, vec3(R(0.0)));
+                arriving = of_sum + min(sum, vec3(radiance_limit)) * grid_transmittance(medium, s, before);
             }
             total += min(arriving * scattered, vec3(radiance_limit));
         }

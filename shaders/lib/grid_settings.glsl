@@ -3,8 +3,9 @@
 // Its points lie on the corners of squares of `cell` pixels, at distances from the camera that all rays share ("slices"):
 //   slices         data, one channel: the distances, the first is 0
 //   grid_density   of the Gaussians from the camera to there: x int rho dt, yzw that of what scatters red, green and blue
-//   grid_lights    of up to four lights, attenuation_density() there, or of any number (`summed`): xyz the logarithm of what they send
-//                  along the step that begins there (light_of_step()), w 1 where that is smooth between the corners, else 0
+//   grid_lights    of up to four lights, attenuation_density() there, or of any number (`summed`): xyz the logarithm of what those of
+//                  them send along the step that begins there (light_of_step()) whose logarithm is straight enough between the
+//                  corners, w which are not: the sum of 2^i, or `all_apart`
 // Slice k has its columns x rows texels from (k % across, k / across) times that on.
 
 struct GridSettings {
@@ -22,6 +23,7 @@ struct GridSettings {
     int grey;        // scattering and absorption have no colour
     float angle;     // [rad] and optical depth that a step may have, each way
     float depth;
+    float bend;      // of a light's logarithm across a cell, second derivative times width^2, that is straight enough
     float doubt;     // share of the airlight that the estimate of its error adds for what halving the grid does not show
 };
 

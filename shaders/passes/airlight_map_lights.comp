@@ -43,18 +43,23 @@ void main()
         float to = data_texel(slices, k + 1).x;
         float behind = texelFetch(grid_density, grid_corner(grid, k + 1) + corner, 0).x +
                        density_integral(brume_medium, direction, to);
-        vec3 sum = vec3(0.0);
-        bool is_smooth = true;
+        GridSum sum = GridSum(vec3(0.0), 0.0);
         for (int i = light_range.x; i < light_range.y; ++i) {
             Light light = light_at(lights, i);
             AttenuationFrame frame = attenuation_frame(attenuation_frames, i);
             Aspect aspect = aspect_to(light, direction);
-            float density_a = attenuation_density(frame, attenuation, grid.side, grid.nodes, i - grid.mapped, light, from * direction);
-            float density_b = attenuation_density(frame, attenuation, grid.side, grid.nodes, i - grid.mapped, light, to * direction);
-            sum += light_of_step(brume_medium, grid, light, aspect, direction, from, to, max(behind - before, 0.0), density_a, density_b);
-            is_smooth = is_smooth && smooth_across(brume_camera, grid, light, aspect, direction, from, to);
+            bool is_smooth = smooth_across(brume_medium, brume_camera, grid, light, aspect, direction, from, to);
+            vec3 sent = vec3(0.0);
+            if (is_smooth) {
+                int index = i - grid.mapped;
+                float density_a = attenuation_density(frame, attenuation, grid.side, grid.nodes, index, light, from * direction);
+                float density_b = attenuation_density(frame, attenuation, grid.side, grid.nodes, index, light, to * direction);
+                float mass = max(behind - before, 0.0);
+                sent = light_of_step(brume_medium, grid, light, aspect, direction, from, to, mass, density_a, density_b);
+            }
+            sum = with_light(sum, i - light_range.x, sent, is_smooth);
         }
-        imageStore(result, grid_corner(grid, k) + corner, grid_sum(min(sum, vec3(radiance_limit)), is_smooth));
+        imageStore(result, grid_corner(grid, k) + corner, grid_sum(sum));
         from = to;
         before = behind;
     }

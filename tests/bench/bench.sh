@@ -12,6 +12,7 @@ build/release/bin/airlight_accuracy ${1:+"$1"} "$out/airlight.json" "$out/airlig
 build/release/bin/airlight_bench ${1:+"$1"} "$out/airlight_speed.json" "$out/airlight_speed.md"
 build/release/bin/maps_bench 353 1 353 3 3008 1 3008 3 3008 8 | tee "$out/maps.md"
 build/release/bin/orders_bench samples/frames/street.0001.exr | tee "$out/orders.md"
+build/release/bin/orders_bench samples/frames/street.0001.exr 3 | tee "$out/orders_1080p.md"
 build/release/bin/lamps_bench samples/frames/street.0001.exr | tee "$out/lamps.md"
 build/release/bin/map_bases | tee "$out/map_bases.md"
 tests/bench/sequence_bench.sh build/release/bin/brume samples/frames "$out"

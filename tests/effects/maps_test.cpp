@@ -224,6 +224,60 @@ TEST(AirlightMaps, SumsAgreeWithEachLight)
     EXPECT_LT(e.p95, 3e-3);
 }
 
+// Forward scattering bends across cells, of some lights at some steps: these are looked up by themselves, the rest is
+// summed.
+Json forward(const Json &lights)
+{
+    Json density = cloud(400, 31);
+    density.push_back(
+        {{"type", "exponential"}, {"value", 0.02}, {"falloff", 0.3}, {"direction", {0, 1, 0}}, {"origin", {0, -2, 0}}});
+    return with(scene_of(density, lights, {{"g", 0.8}}), "tier", "maps");
+}
+
+TEST(AirlightMaps, SumsOfForwardScatteringAgreeWithEachLight)
+{
+    const Frame frame = lit_frame(240, 400);
+    const Json scene = forward(lamps(3));
+    const Picture sums = airlight_of(cpu(), scene, frame),
+                  each = run(cpu(), scene.dump(), frame.color, frame.depth, Options{{}, {"airlight", "airlight_error"}})
+                             .airlight;
+    const Errors e = errors(sums, each);
+    report("sums", e);
+    EXPECT_GT(e.worst, 1e-5) << "the grid has no sums";
+    EXPECT_LT(e.median, 1e-3);
+    EXPECT_LT(e.p95, 3e-3);
+#ifdef BRUME_GL
+    const Errors gl = errors(airlight_of(backend("gl"), scene, frame), sums);
+    report("GPU against CPU", gl);
+    EXPECT_LT(gl.p95, 1e-3);
+    EXPECT_LT(gl.worst, 0.1) << gl.x << ", " << gl.y;
+#endif
+}
+
+// More than the grid can tell apart.
+TEST(AirlightMaps, SumsOfManyLightsAreTheSumOfEach)
+{
+    const Frame frame = lit_frame(320, 200);
+    std::mt19937 random(32);
+    std::uniform_real_distribution<double> u(0, 1);
+    Json all = Json::array();
+    for (int i = 0; i < 26; ++i)
+        all.push_back(point_light({8 * u(random) - 4, 6 * u(random) - 3, -5 - 8 * u(random)}, 5 + 10 * u(random), 0.05));
+    const Json density = cloud(300, 33);
+    const Picture together = airlight_of(cpu(), with(scene_of(density, all), "tier", "maps"), frame);
+    Picture sum = together;
+    std::fill(sum.data.begin(), sum.data.end(), 0.0f);
+    for (const Json &one : all) {
+        const Picture p = airlight_of(cpu(), with(scene_of(density, Json::array({one})), "tier", "maps"), frame);
+        for (size_t i = 0; i < p.data.size(); ++i)
+            sum.data[i] += p.data[i];
+    }
+    const Errors e = errors(together, sum);
+    report("26 lamps", e);
+    EXPECT_LT(e.median, 1e-3);
+    EXPECT_LT(e.worst, 0.02) << e.x << ", " << e.y;
+}
+
 #ifdef BRUME_GL
 TEST(AirlightMaps, GpuAgainstCpu)
 {

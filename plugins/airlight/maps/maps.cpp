@@ -30,8 +30,15 @@ constexpr int most_kept_maps = 64;
 constexpr uint64_t most_map_bytes = uint64_t(64) << 20;
 constexpr int widest = 8192;  // of the grid's images
 
-// A cell whose lights are summed, as seen from the camera: a share of the angle that a step may have from a light.
+// A cell whose lights are summed, as seen from the camera: a share of the angle that a step may have from a light. Small
+// cells ask more of moving frames than wide ones, as most of the grid is behind surfaces, so that there peaks of the phase
+// function count, too.
 constexpr float widest_summed = 0.05f;
+constexpr int least_peaked_cell = 4;
+
+// The angle that a cell may have as seen from a light where the phase function is even, as a share of a step's. Across it
+// the logarithm of 1 / d^2 is then straight to a few thousandths at worst, less in the mean.
+constexpr double smooth_angle = 0.65;
 
 // Unasked, maps are for many Gaussians and errors that their grid reaches.
 constexpr uint32_t fewest_gaussians = 8;
@@ -92,8 +99,10 @@ float step_angle(const brume_plugin_scene &scene, double max_error)
 }
 
 // Shadow maps and orders tell pixels and lights apart, and across wide cells little is smooth enough to be summed.
-bool sums_lights(const brume_plugin_scene &scene, const State &state, bool orders, int cell, float angle)
+bool sums_lights(const brume_plugin_scene &scene, const State &state, bool orders, int cell)
 {
+    const double max_error = state.parameters.max_error;
+    const float angle = cell < least_peaked_cell ? step_angle(scene, max_error) : float(maps::fineness_of(max_error).angle);
     return !state.error && !state.shadowed && !orders && float(cell) < widest_summed * angle * scene.camera->focal[0];
 }
 
@@ -135,7 +144,7 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
                   (scene.gaussians ? scene.gaussian_count >= fewest_gaussians : scene.gaussian_count > 0);
     // Orders beyond the first go pixel by pixel.
     const bool orders = p.orders == Orders::all && !takes_grid(state, scene),
-               summed = sums_lights(scene, state, orders, offer.sizes.cell, step_angle(scene, p.max_error));
+               summed = sums_lights(scene, state, orders, offer.sizes.cell);
     const double lights = scene.light_count, looked_up = (summed ? 1 : lights) * (orders ? 20 : 1),
                  pixels = double(state.width) * state.height / (p.reduction * p.reduction), slices = offer.sizes.slices,
                  side = fineness.side, of_list = 40 * std::sqrt(1 + 0.1 * scene.gaussian_count),
@@ -169,6 +178,7 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     auto grey = [](const float(&v)[3]) { return v[0] == v[1] && v[1] == v[2]; };
     s.grey = grey(medium.scattering) && grey(medium.absorption);
     s.depth = float(fineness.depth);
+    s.bend = float(2 * smooth_angle * smooth_angle * fineness.angle * fineness.angle);
     s.doubt = float(fineness.doubt);
     const uint64_t map_bytes = uint64_t(s.side) * uint64_t(s.side) * uint64_t(s.nodes) * 4;
     const int room = std::clamp(int(most_map_bytes / map_bytes), most_depths, std::min(most_kept_maps, 16384 / s.side));
@@ -239,8 +249,7 @@ public:
         constants_.grid = maps_.settings;
         constants_.airlight = settings_of(state, *frame.scene);
         constants_.estimate = state.error != nullptr;
-        constants_.grid.summed =
-            sums_lights(*frame.scene, state, gathers_orders(state), constants_.grid.cell, constants_.grid.angle);
+        constants_.grid.summed = sums_lights(*frame.scene, state, gathers_orders(state), constants_.grid.cell);
     }
 
     int lights_at_once() const { return constants_.grid.summed ? maps_.kept : most_depths; }

@@ -12,7 +12,8 @@
         BRUME_CONSTANT_OF(Struct, grid, nodes), BRUME_CONSTANT_OF(Struct, grid, mapped),                                    \
         BRUME_CONSTANT_OF(Struct, grid, gaussians), BRUME_CONSTANT_OF(Struct, grid, summed),                                \
         BRUME_CONSTANT_OF(Struct, grid, grey), BRUME_CONSTANT_OF(Struct, grid, angle),                                      \
-        BRUME_CONSTANT_OF(Struct, grid, depth), BRUME_CONSTANT_OF(Struct, grid, doubt)
+        BRUME_CONSTANT_OF(Struct, grid, depth), BRUME_CONSTANT_OF(Struct, grid, bend),                                      \
+        BRUME_CONSTANT_OF(Struct, grid, doubt)
 
 namespace airlight::maps {
 
