@@ -13,8 +13,8 @@
 
 #include "maths.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define BRUME_AVX2 1
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define BRUME_AVX2 1  // the address sanitizer does not see gathers: it has the loads of every machine
 #define BRUME_BEGIN_AVX2 _Pragma("GCC push_options") _Pragma("GCC target(\"avx2\")")
 #define BRUME_END_AVX2 _Pragma("GCC pop_options")
 #endif

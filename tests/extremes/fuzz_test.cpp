@@ -12,7 +12,7 @@ using fog::Picture;
 
 namespace {
 
-constexpr int texts = 100000;
+constexpr int texts = 60000;
 constexpr int planned_share = 2;   // of the texts that are scenes, one in so many
 constexpr int executed_share = 3;  // of the plans
 
