@@ -86,6 +86,21 @@ Errors errors(const Picture &a, const Picture &exact)
     return e;
 }
 
+// Of all lights together against the sum of each alone.
+Errors against_each(const Json &density, const Json &lights, const Frame &frame)
+{
+    auto lit_by = [&](const Json &some) { return airlight_of(cpu(), with(scene_of(density, some), "tier", "maps"), frame); };
+    const Picture together = lit_by(lights);
+    Picture sum = together;
+    std::fill(sum.data.begin(), sum.data.end(), 0.0f);
+    for (const Json &one : lights) {
+        const Picture p = lit_by(Json::array({one}));
+        for (size_t i = 0; i < p.data.size(); ++i)
+            sum.data[i] += p.data[i];
+    }
+    return errors(together, sum);
+}
+
 void report(const char *name, const Errors &e)
 {
     printf("%s: mean %.2e, median %.2e, 95 %% %.2e, worst %.2e at %d, %d\n", name, e.mean, e.median, e.p95, e.worst, e.x,
@@ -248,18 +263,6 @@ TEST(AirlightMaps, SumsOfForwardScatteringAgreeWithEachLight)
     EXPECT_LT(e.p95, 3e-3);
 }
 
-#ifdef BRUME_GL
-TEST(AirlightMaps, SumsOfForwardScatteringGpuAgainstCpu)
-{
-    const Frame frame = lit_frame(240, 400);
-    const Json scene = forward(lamps(3));
-    const Errors e = errors(airlight_of(backend("gl"), scene, frame), airlight_of(cpu(), scene, frame));
-    report("sums", e);
-    EXPECT_LT(e.p95, 1e-3);
-    EXPECT_LT(e.worst, 0.1) << e.x << ", " << e.y;
-}
-#endif
-
 // More than the grid can tell apart.
 TEST(AirlightMaps, SumsOfManyLightsAreTheSumOfEach)
 {
@@ -269,16 +272,7 @@ TEST(AirlightMaps, SumsOfManyLightsAreTheSumOfEach)
     Json all = Json::array();
     for (int i = 0; i < 26; ++i)
         all.push_back(point_light({8 * u(random) - 4, 6 * u(random) - 3, -5 - 8 * u(random)}, 5 + 10 * u(random), 0.05));
-    const Json density = cloud(300, 33);
-    const Picture together = airlight_of(cpu(), with(scene_of(density, all), "tier", "maps"), frame);
-    Picture sum = together;
-    std::fill(sum.data.begin(), sum.data.end(), 0.0f);
-    for (const Json &one : all) {
-        const Picture p = airlight_of(cpu(), with(scene_of(density, Json::array({one})), "tier", "maps"), frame);
-        for (size_t i = 0; i < p.data.size(); ++i)
-            sum.data[i] += p.data[i];
-    }
-    const Errors e = errors(together, sum);
+    const Errors e = against_each(cloud(300, 33), all, frame);
     report("26 lamps", e);
     EXPECT_LT(e.median, 1e-3);
     EXPECT_LT(e.worst, 0.02) << e.x << ", " << e.y;
@@ -287,15 +281,16 @@ TEST(AirlightMaps, SumsOfManyLightsAreTheSumOfEach)
 #ifdef BRUME_GL
 TEST(AirlightMaps, GpuAgainstCpu)
 {
-    const Frame frame = lit_frame(64, 40);
-    for (const NamedScene &s : clouds()) {
-        const Json scene = with(s.scene, "tier", "maps");
+    auto compare = [](const char *name, const Json &scene, const Frame &frame) {
         const Errors e = errors(airlight_of(backend("gl"), scene, frame), airlight_of(cpu(), scene, frame));
-        report(s.name, e);
+        report(name, e);
         // GPUs give the fraction of a bilinear fetch 8 bits, and around a lamp that decides whether a step is halved.
-        EXPECT_LT(e.p95, 1e-3) << s.name;
-        EXPECT_LT(e.worst, 0.1) << s.name << " at " << e.x << ", " << e.y;
-    }
+        EXPECT_LT(e.p95, 1e-3) << name;
+        EXPECT_LT(e.worst, 0.1) << name << " at " << e.x << ", " << e.y;
+    };
+    for (const NamedScene &s : clouds())
+        compare(s.name, with(s.scene, "tier", "maps"), lit_frame(64, 40));
+    compare("sums of forward scattering", forward(lamps(3)), lit_frame(240, 400));
 }
 #endif
 
@@ -326,17 +321,7 @@ TEST(AirlightMaps, EightLampsCostLittleMoreThanOne)
 // Light adds up, over rounds of four and beyond the maps that are kept.
 TEST(AirlightMaps, ManyLightsAreTheSumOfEach)
 {
-    const Frame frame = lit_frame(48, 32);
-    const Json density = cloud(100, 9), all = lamps(9);
-    const Picture together = airlight_of(cpu(), with(scene_of(density, all), "tier", "maps"), frame);
-    Picture sum = together;
-    std::fill(sum.data.begin(), sum.data.end(), 0.0f);
-    for (const Json &one : all) {
-        const Picture p = airlight_of(cpu(), with(scene_of(density, Json::array({one})), "tier", "maps"), frame);
-        for (size_t i = 0; i < p.data.size(); ++i)
-            sum.data[i] += p.data[i];
-    }
-    const Errors e = errors(together, sum);
+    const Errors e = against_each(cloud(100, 9), lamps(9), lit_frame(48, 32));
     EXPECT_LT(e.worst, 1e-5) << e.x << ", " << e.y;
 }
 
