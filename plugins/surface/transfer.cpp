@@ -13,7 +13,7 @@ using namespace brume::maths_double;
 
 namespace {
 
-constexpr int degrees = transfer_degrees - 1, coefficients = degrees * degrees;
+constexpr int degrees = transfer_degrees - 1;
 
 // Of a transfer whose only coefficient is this one; summed over the degrees it is y_lm.
 double harmonic(int coefficient, const vec3 &d)
