@@ -24,14 +24,24 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define R(x) real(x)
 #define IN(type) const type &
-#define PURE [[gnu::always_inline]] inline
+
+// All inlined into one loop runs a seventh faster, and takes twice as long to compile: not where the loop runs on few machines, or slowly
+// anyway.
+#if defined(BRUME_AVX2) || defined(__SANITIZE_ADDRESS__)
+#define BRUME_PURE_GENERIC inline
+#else
+#define BRUME_PURE_GENERIC [[gnu::always_inline]] inline
+#endif
+#define BRUME_PURE_AVX2 [[gnu::always_inline]] inline
 
 namespace brume {
 
 #define BRUME_GATHER 0
+#define PURE BRUME_PURE_GENERIC
 namespace lanes_generic {
 #include "lanes_types.inc"
 }
+#undef PURE
 #undef BRUME_GATHER
 
 #ifdef BRUME_AVX2
@@ -41,11 +51,13 @@ inline bool runs_avx2()
 }
 
 #define BRUME_GATHER 1
+#define PURE BRUME_PURE_AVX2
 BRUME_BEGIN_AVX2
 namespace lanes_avx2 {
 #include "lanes_types.inc"
 }
 BRUME_END_AVX2
+#undef PURE
 #undef BRUME_GATHER
 #define BRUME_OF_THIS_MACHINE(name) (brume::runs_avx2() ? avx2::name : generic::name)
 #else
@@ -55,5 +67,4 @@ BRUME_END_AVX2
 }  // namespace brume
 #undef R
 #undef IN
-#undef PURE
 #pragma GCC diagnostic pop

@@ -27,6 +27,17 @@ struct CpuImage : Image {
     uint64_t idle_since = 0;
 };
 
+// Row functions made for AVX may return with the upper halves of its registers in use (GCC leaves them so after calls that return
+// vectors). Whatever comes next on the thread without AVX, the host's own code too, would take up to ten times as long.
+void rest_wide_registers()
+{
+#if defined(__x86_64__) && defined(__GNUC__)
+    static const bool are_wide = __builtin_cpu_supports("avx");
+    if (are_wide)
+        asm volatile("vzeroupper");
+#endif
+}
+
 class Pool : public std::enable_shared_from_this<Pool> {
 public:
     std::shared_ptr<CpuImage> take(int32_t width, int32_t height, int32_t channels)
@@ -272,6 +283,7 @@ public:
                 return;
             const auto last = int32_t(std::min<int64_t>(height, (int64_t(block) + 1) * grain));
             brume_status result = pass.function(&call, block * grain, last);
+            rest_wide_registers();
             // Only the thread of the API call may report, between the blocks that it takes itself.
             const int32_t rows = done += last - block * grain;
             if (watch && std::this_thread::get_id() == caller &&
