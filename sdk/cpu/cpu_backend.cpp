@@ -27,8 +27,9 @@ struct CpuImage : Image {
     uint64_t idle_since = 0;
 };
 
-// Row functions made for AVX may return with the upper halves of its registers in use (GCC leaves them so after calls that return
-// vectors). Whatever comes next on the thread without AVX, the host's own code too, would take up to ten times as long.
+// Row functions made for AVX may return with the upper halves of its registers in use (GCC leaves them so after calls that
+// return vectors). Whatever comes next on the thread without AVX, the host's own code too, would take up to ten times as
+// long.
 void rest_wide_registers()
 {
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -18,7 +18,13 @@ struct FieldReader {
     void operator()(bool &to) const { to = node.boolean(); }
     void operator()(double &to) const { to = read_constant(node, range); }
     void operator()(uint32_t &to) const;
-    void operator()(std::string &to) const { to = (folder / node.string("the name of an image")).string(); }
+    void operator()(std::string &to) const
+    {
+        const std::string &name = node.string("the name of an image");
+        if (name.empty())
+            node.expected("the name of an image");
+        to = (folder / name).string();
+    }
     void operator()(Number &to) const;
     void operator()(std::array<Number, 2> &to) const;
     void operator()(Number3 &to) const;

@@ -14,7 +14,10 @@ GaussianSet read_gaussian_set(const JsonNode &node, const std::filesystem::path 
     read_fields<GaussianSet>(node, folder, gaussian_set_fields, ~0u, set, [&](std::string_view key, const JsonNode &file) {
         if (key != "file")
             return;
-        set.file = (folder / file.string("the name of a CSV or PLY file")).string();
+        const std::string &name = file.string("the name of a CSV or PLY file");
+        if (name.empty())
+            file.expected("the name of a CSV or PLY file");
+        set.file = (folder / name).string();
         try {
             if (GaussianFrames::has_frame_number(set.file))
                 set.frames = std::make_shared<const GaussianFrames>(set.file);

@@ -58,7 +58,7 @@ struct MemberSchema {
     {
         return {{"type", "integer"}, {"minimum", int(range.minimum)}, {"maximum", int(range.maximum)}};
     }
-    Json written(const std::string &) const { return {{"type", "string"}}; }
+    Json written(const std::string &) const { return {{"type", "string"}, {"minLength", 1}}; }
     Json written(const Number &) const { return number(range); }
     Json written(const std::array<Number, 2> &) const { return array_of(number(range), 2); }
     Json written(const Number3 &) const
@@ -130,7 +130,7 @@ Json named(const char *type)
 Json density()
 {
     Json gaussians = named("gaussians");
-    gaussians["file"] = {{"type", "string"}};
+    gaussians["file"] = {{"type", "string"}, {"minLength", 1}};
     const Json terms =
         Json::array({object_of_fields<DensityTerm>(density_fields, 1u << BRUME_DENSITY_CONSTANT, named("constant")),
                      object_of_fields<DensityTerm>(density_fields, 1u << BRUME_DENSITY_EXPONENTIAL, named("exponential")),

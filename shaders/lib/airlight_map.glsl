@@ -83,6 +83,10 @@ PURE ivec2 grid_tile(sampler2D tiles, IN(GridSettings) s, ivec2 corner)
 
 PURE Profile grid_profile(IN(Medium) medium, IN(Camera) camera, IN(Gaussian) g, int cell, vec3 direction)
 {
-    float spacing = float(cell) * length(g.center) / camera.focal.x;
+    // Corners lie closer off the axis: by its cosine across the way to it, and by the square along that.
+    float cosine = max(-direction.z, R(0.05));
+    float spacing = length(g.center) / camera.focal.x * cosine * sqrt(cosine);
+    // Pixels are read at their centres, of few in a cell farther from its corners than in the mean.
+    spacing *= sqrt(float(cell) * float(cell) + R(0.5));
     return widened_along(sight_profile(medium, camera, narrowed(g, spacing), direction), g.scale);
 }

@@ -1,4 +1,4 @@
-// What a light sends along a step of a view's ray, for the method `maps`. Needs radiance.glsl, lit.glsl, grid_settings.glsl.
+// What a light sends along a step of a view's ray, for the method `maps`. Needs radiance.glsl, lit.glsl, light_cone.glsl, grid_settings.glsl.
 
 const int grid_halvings = 4;
 
@@ -55,6 +55,11 @@ PURE vec3 choose(Bool which, vec3 a, vec3 b)
     return vec3(choose(which, a.x, b.x), choose(which, a.y, b.y), choose(which, a.z, b.z));
 }
 
+PURE vec4 choose(Bool which, vec4 a, vec4 b)
+{
+    return vec4(choose(which, a.x, b.x), choose(which, a.y, b.y), choose(which, a.z, b.z), choose(which, a.w, b.w));
+}
+
 PURE Aspect aspect_to(IN(Light) light, vec3 direction)
 {
     Aspect aspect = aspect_of(light, direction);
@@ -68,10 +73,32 @@ PURE float height_of(IN(Light) light, IN(Aspect) aspect)
     return light.type == light_directional ? parallel_height : min(max(aspect.height, light.radius), farthest_light);
 }
 
+// Where a ray is in a spot's cones, from the light's foot.
+struct Cones {
+    vec2 outer;
+    vec2 inner;
+    float penumbra;  // between them [rad]
+};
+
+PURE Cones cones_of(IN(Light) light, IN(Aspect) aspect, vec3 direction)
+{
+    vec2 all = vec2(-far_away, far_away);
+    if (light.type != light_spot)
+        return Cones(all, all, R(1.0));
+    vec3 foot = aspect.foot * direction - light.position;
+    float middle = R(0.5) * (light.cos_inner + light.cos_outer);
+    float sine = sqrt(max(R(1.0) - middle * middle, R(1e-12)));
+    return Cones(line_in_cone(foot, direction, light.direction, light.cos_outer),
+                 line_in_cone(foot, direction, light.direction, light.cos_inner), (light.cos_inner - light.cos_outer) / sine);
+}
+
+// Of a spot's penumbra that one value may stand for.
+const float penumbra_share = R(0.4);
+
 // Where a light is looked up in a step: in the middle, or in those of 2, 4, 8 or 16 parts, all seen from the light in the same angle.
 struct StepNodes {
     float height;  // of the light above the ray
-    float low;     // the step's ends, from the light's foot
+    float low;     // the lit part's ends, from the light's foot
     float high;
     float angle;
     float halvings;
@@ -88,18 +115,26 @@ struct StepNode {
 };
 
 // density_a, density_b: at the step's ends, as attenuation_density() has them.
-PURE StepNodes step_nodes(IN(GridSettings) s, IN(Light) light, float foot, float height, float from, float to, float extinction, float mass,
-                          float density_a, float density_b)
+PURE StepNodes step_nodes(IN(GridSettings) s, IN(Light) light, float foot, float height, IN(Cones) cones, float from, float to,
+                          float extinction, float mass, float density_a, float density_b)
 {
     float a = clamp(from - foot, -farthest_light, farthest_light);
     float b = clamp(to - foot, -farthest_light, farthest_light);
     float h = height;
-    float angle = angle_of(h, a, b);
     float d = light.type == light_directional ? R(1.0) : sqrt(h * h + a * a);
     float e = light.type == light_directional ? R(1.0) : sqrt(h * h + b * b);
     float turns = max(extinction * mass, extinction * abs(density_b * e - density_a * d)) / s.depth;
+    if (light.type == light_spot) {
+        a = max(a, cones.outer.x);
+        b = max(min(b, cones.outer.y), a);
+    }
+    float angle = angle_of(h, a, b);
     if (light.type != light_directional)
         turns = max(turns, angle / s.angle);
+    if (light.type == light_spot) {
+        Bool even = a >= cones.inner.x && b <= cones.inner.y;
+        turns = max(turns, choose(even, R(0.0), angle / max(penumbra_share * cones.penumbra, R(1e-6))));
+    }
     // Pixels side by side go as far as any of them needs; each takes its own steps, so that none depends on the others.
     StepNodes nodes = StepNodes(h, a, b, angle, R(0.0), R(1.0), 0);
     for (int n = 1; n <= grid_halvings && some(turns > nodes.count); ++n) {
@@ -127,8 +162,9 @@ PURE StepNode step_node(IN(StepNodes) nodes, float foot, float from, float to, i
     float t = clamp(foot + middle, from, to);
     float x = t - foot;
     float width = to - from;
+    float lit = nodes.high - nodes.low;
     // dt of the node's part of the angle.
-    float weight = or_zero(min((h * h + x * x) / h * (nodes.angle / nodes.count), width));
+    float weight = or_zero(min((h * h + x * x) / h * (nodes.angle / nodes.count), lit));
     return StepNode(low, high, t, choose(float(j) < nodes.count, weight, R(0.0)), (t - from) / max(width, R(1e-30)));
 }
 
@@ -154,8 +190,8 @@ PURE vec3 light_of_step(IN(Medium) medium, IN(GridSettings) s, IN(Light) light, 
 {
     vec3 extinction = medium.scattering + medium.absorption;
     float most = max(max(extinction.x, extinction.y), extinction.z);
-    StepNodes nodes =
-        step_nodes(s, light, aspect.foot, height_of(light, aspect), from, to, most, mass, density_a, density_b);
+    StepNodes nodes = step_nodes(s, light, aspect.foot, height_of(light, aspect), cones_of(light, aspect, direction), from, to, most, mass,
+                                 density_a, density_b);
     float width = max(to - from, R(1e-30));
     vec3 whole = vec3(R(1.0));
     if (nodes.most_halvings > 0)

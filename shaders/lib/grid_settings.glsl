@@ -5,7 +5,7 @@
 //   grid_density   of the Gaussians from the camera to there: x int rho dt, yzw that of what scatters red, green and blue
 //   grid_lights    of up to four lights, attenuation_density() there, or of any number (`summed`): xyz the logarithm of what those of
 //                  them send along the step that begins there (light_of_step()) whose logarithm is straight enough between the
-//                  corners, w which are not: the sum of 2^i, or `all_apart`
+//                  corners, w which are not: the sum of 2^i, or `all_apart`; as far as pixels around the corner see, and a step more
 // Slice k has its columns x rows texels from (k % across, k / across) times that on.
 
 struct GridSettings {
@@ -23,7 +23,7 @@ struct GridSettings {
     int grey;        // scattering and absorption have no colour
     float angle;     // [rad] and optical depth that a step may have, each way
     float depth;
-    float bend;      // of a light's logarithm across a cell, second derivative times width^2, that is straight enough
+    float bend;      // of a light's logarithm across a cell or along a step, second derivative times width^2, that is straight enough
     float doubt;     // share of the airlight that the estimate of its error adds for what halving the grid does not show
 };
 

@@ -4,34 +4,35 @@
 // about `axis` of half angle acos(c), 0 <= c <= 1; x >= y where it is empty.
 PURE vec2 line_in_cone(vec3 foot, vec3 direction, vec3 axis, float c)
 {
-    const vec2 empty = vec2(R(1.0), -R(1.0));
     float along = dot(direction, axis);
     float off = dot(foot, axis);
-    if (c < R(1e-6)) {
-        // Half of space.
-        if (abs(along) < R(1e-6))
-            return off >= R(0.0) ? vec2(-far_away, far_away) : empty;
-        return along > R(0.0) ? vec2(-off / along, far_away) : vec2(-far_away, -off / along);
-    }
     float a = (along - c) * (along + c);
-    if (abs(a) < R(1e-12))
-        a = -R(1e-12);
+    a = choose(abs(a) < R(1e-12), -R(1e-12), a);
     float square = dot(foot, foot);
     float discriminant = off * off + a * square;
-    // Within the cone's angle of its axis (a > 0) every line meets it, be it at the apex alone, where all else is zero.
-    if (a < R(0.0) && (discriminant <= R(0.0) || off <= R(0.0)))
-        return empty;
     float s = along * off;
     float root = c * sqrt(max(discriminant, R(0.0)));
-    float q = s < R(0.0) ? root - s : -root - s;
+    float q = choose(s < R(0.0), root - s, -root - s);
     float first = q / a;
-    float second = abs(q) > R(1e-30) ? (off * off - c * c * square) / q : first;
+    float second = choose(abs(q) > R(1e-30), (off * off - c * c * square) / q, first);
     float near = min(first, second);
     float far = max(first, second);
-    if (a < R(0.0))
-        return vec2(near, far);
     // Of two nappes the front one takes the end of the line that runs along the axis.
-    return along > R(0.0) ? vec2(far, far_away) : vec2(-far_away, near);
+    Bool both = a > R(0.0);
+    Bool forward = along > R(0.0);
+    vec2 part = vec2(choose(both, choose(forward, far, -far_away), near), choose(both, choose(forward, far_away, near), far));
+    // Within the cone's angle of its axis every line meets it, be it at the apex alone, where all else is zero.
+    Bool misses = a < R(0.0) && (discriminant <= R(0.0) || off <= R(0.0));
+    if (some(c < R(1e-6))) {
+        // Half of space.
+        Bool wide = c < R(1e-6);
+        Bool beside = abs(along) < R(1e-6);
+        float edge = -off / along;
+        part.x = choose(wide, choose(beside || !forward, -far_away, edge), part.x);
+        part.y = choose(wide, choose(beside || forward, far_away, edge), part.y);
+        misses = (wide && beside && off < R(0.0)) || (!wide && misses);
+    }
+    return vec2(choose(misses, R(1.0), part.x), choose(misses, -R(1.0), part.y));
 }
 
 // The part of the camera's ray that a light shines on, within [0, distance]; x >= y where that is nothing. c: cosine of the

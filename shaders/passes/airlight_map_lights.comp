@@ -6,6 +6,7 @@
 #include "value.glsl"
 #include "phase.glsl"
 #include "light.glsl"
+#include "light_cone.glsl"
 #include "lit.glsl"
 #include "octahedral.glsl"
 #include "attenuation.glsl"
@@ -22,7 +23,22 @@ uniform sampler2D attenuation_frames;
 uniform sampler2D lights;
 uniform sampler2D slices;
 uniform sampler2D grid_density;
+uniform sampler2D depth;
 writeonly uniform image2D result;
+
+// How far pixels see in the cells around a corner.
+float reach_around(ivec2 corner)
+{
+    ivec2 first = max((corner - 1) * grid.cell, ivec2(0));
+    ivec2 end = min((corner + 1) * grid.cell, grid.size);
+    float reach = 0.0;
+    for (int y = first.y; y < end.y; ++y)
+        for (int x = first.x; x < end.x; ++x) {
+            Ray ray = pixel_ray(brume_camera, vec2(x, y) + 0.5, texelFetch(depth, ivec2(x, y), 0).x);
+            reach = max(reach, ray.keep ? 0.0 : ray.distance);
+        }
+    return reach;
+}
 
 void main()
 {
@@ -37,9 +53,12 @@ void main()
                                    data_texel(slices, k).x));
         return;
     }
+    float reach = reach_around(corner);
+    float first = 0.0;
     float from = 0.0;
     float before = 0.0;
-    for (int k = 0; k < grid.slices; ++k) {
+    // One step more than rays go: the part that they end in is read from those around it.
+    for (int k = 0; k < grid.slices && (k == 0 || first < reach); ++k) {
         float to = data_texel(slices, k + 1).x;
         float behind = texelFetch(grid_density, grid_corner(grid, k + 1) + corner, 0).x +
                        density_integral(brume_medium, direction, to);
@@ -60,6 +79,7 @@ void main()
             sum = with_light(sum, i - light_range.x, sent, is_smooth);
         }
         imageStore(result, grid_corner(grid, k) + corner, grid_sum(sum));
+        first = from;
         from = to;
         before = behind;
     }

@@ -6,7 +6,8 @@ namespace brume {
 namespace {
 
 #if defined(__x86_64__) && defined(__GNUC__)
-// Whether the upper halves of wide registers are in use, after which whatever knows no AVX is slow; XGETBV of component 1 tells.
+// Whether the upper halves of wide registers are in use, after which whatever knows no AVX is slow; XGETBV of component 1
+// tells.
 bool wide_registers_rest()
 {
     uint32_t in_use = 0, high = 0;

@@ -28,13 +28,10 @@ constexpr int most_depths = brume::maths_float::grid_lights_at_once;
 constexpr int most_kept_maps = 64;
 
 constexpr uint64_t most_map_bytes = uint64_t(64) << 20;
-constexpr int widest = 8192;  // of the grid's images
+constexpr int widest = 8192, tallest = 16384;  // of the grid's images
 
-// A cell whose lights are summed, as seen from the camera: a share of the angle that a step may have from a light. Small
-// cells ask more of moving frames than wide ones, as most of the grid is behind surfaces, so that there peaks of the phase
-// function count, too.
+// A cell whose lights are summed, as seen from the camera: a share of the angle that a step may have from a light.
 constexpr float widest_summed = 0.05f;
-constexpr int least_peaked_cell = 4;
 
 // The angle that a cell may have as seen from a light where the phase function is even, as a share of a step's. Across it
 // the logarithm of 1 / d^2 is then straight to a few thousandths at worst, less in the mean.
@@ -53,7 +50,8 @@ constexpr brume_slot density_slots[] = {fetch("gaussians"), fetch("tiles"), fetc
 static_assert(std::size(density_slots) == maps::density::slot_count);
 
 constexpr brume_slot lights_slots[] = {fetch("attenuation"), fetch("attenuation_frames"), fetch("lights"),
-                                       fetch("slices"),      fetch("grid_density"),       write("result")};
+                                       fetch("slices"),      fetch("grid_density"),       fetch("depth"),
+                                       write("result")};
 static_assert(std::size(lights_slots) == maps::lights::slot_count);
 
 constexpr brume_slot gather_slots[] = {fetch("depth"),
@@ -86,6 +84,12 @@ template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot 
     return desc;
 }
 
+// Pixels of a reduced picture are not to share a cell's side.
+int least_cell(const Parameters &p)
+{
+    return p.reduction > 1 ? 2 * p.reduction : 1;
+}
+
 int corners(int size, int cell)
 {
     return (size + cell - 1) / cell + 1;
@@ -101,14 +105,52 @@ float step_angle(const brume_plugin_scene &scene, double max_error)
 // Shadow maps and orders tell pixels and lights apart, and across wide cells little is smooth enough to be summed.
 bool sums_lights(const brume_plugin_scene &scene, const State &state, bool orders, int cell)
 {
-    const double max_error = state.parameters.max_error;
-    const float angle = cell < least_peaked_cell ? step_angle(scene, max_error) : float(maps::fineness_of(max_error).angle);
+    const auto angle = float(maps::fineness_of(state.parameters.max_error).angle);
     return !state.error && !state.shadowed && !orders && float(cell) < widest_summed * angle * scene.camera->focal[0];
 }
 
 ivec2 grid_size(const GridSettings &s)
 {
     return ivec2(s.across * s.columns, (s.slices + s.across) / s.across * s.rows);
+}
+
+// A grid in images of this width.
+void lay_out(GridSettings &s, const maps::Sizes &sizes, int width)
+{
+    s.cell = sizes.cell;
+    s.columns = corners(s.size.x, s.cell);
+    s.rows = corners(s.size.y, s.cell);
+    s.slices = sizes.slices;
+    s.across = std::clamp(width / s.columns, 1, s.slices + 1);
+}
+
+uint64_t bytes_of(ivec2 grid)
+{
+    return uint64_t(grid.x) * uint64_t(grid.y) * 32;
+}
+
+// The images that a plan's grids have: Gaussians may shrink to a third in later frames; of those of files it knows nothing
+// yet.
+ivec2 room_for(const GridSettings &s, const brume_plugin_scene &scene, const maps::Sizes &sizes, const Parameters &p)
+{
+    const ivec2 needed = grid_size(s);
+    const auto most = uint64_t(p.memory * 1e6);
+    const uint64_t wanted = scene.gaussians ? std::min(4 * sizes.bytes, most) : most;
+    const int height = int(std::min<uint64_t>(wanted / (uint64_t(needed.x) * 32), tallest));
+    return ivec2(needed.x, std::max(needed.y, height));
+}
+
+// As a frame's Gaussians want it, as far as there is room.
+void fit_grid(const brume_plugin_scene &scene, State &state)
+{
+    GridSettings &s = state.maps.settings;
+    const ivec2 room = state.maps.room;
+    maps::Sizes sizes = maps::sizes_of(scene, state.width, state.height, least_cell(state.parameters),
+                                       maps::fineness_of(state.parameters.max_error), bytes_of(room));
+    do {
+        lay_out(s, sizes, room.x);
+        sizes.cell *= 2;
+    } while (grid_size(s).x > room.x || grid_size(s).y > room.y);
 }
 
 brume_status create_map_passes(const brume_services &services, brume_host host, State &state)
@@ -137,8 +179,7 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     const brume_plugin_scene &scene = *request.scene;
     const Parameters &p = state.parameters;
     const maps::Fineness fineness = maps::fineness_of(p.max_error);
-    MapsOffer offer{maps::sizes_of(scene, state.width, state.height, p.reduction > 1 ? 2 * p.reduction : 1, fineness,
-                                   uint64_t(p.memory * 1e6)),
+    MapsOffer offer{maps::sizes_of(scene, state.width, state.height, least_cell(p), fineness, uint64_t(p.memory * 1e6)),
                     false, 0, 0, 0};
     offer.suits = p.max_error >= least_error && offer.sizes.fine &&
                   (scene.gaussians ? scene.gaussian_count >= fewest_gaussians : scene.gaussian_count > 0);
@@ -167,11 +208,8 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     Maps &m = state.maps;
     GridSettings &s = m.settings;
     s.size = ivec2(state.width, state.height);
-    s.cell = sizes.cell;
-    s.columns = corners(state.width, s.cell);
-    s.rows = corners(state.height, s.cell);
-    s.slices = sizes.slices;
-    s.across = std::clamp(widest / s.columns, 1, s.slices + 1);
+    lay_out(s, sizes, widest);
+    m.room = room_for(s, scene, sizes, p);
     s.side = fineness.side;
     s.nodes = fineness.nodes;
     const brume_plugin_medium &medium = *scene.medium;
@@ -189,9 +227,9 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
     };
     if (brume_status e = image("attenuation maps", ivec2(s.side * s.nodes, s.side * m.kept), 1, m.attenuation))
         return e;
-    if (brume_status e = image("grid of density", grid_size(s), 4, m.density))
+    if (brume_status e = image("grid of density", m.room, 4, m.density))
         return e;
-    if (brume_status e = image("grid of the lights", grid_size(s), 4, m.lights))
+    if (brume_status e = image("grid of the lights", m.room, 4, m.lights))
         return e;
     const ivec2 reduced = brume::maths_float::reduced_size(s.size, p.reduction);
     if (brume_status e = image("airlight so far", reduced, 4, m.radiance))
@@ -213,7 +251,7 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
         return e;
     if (brume_status e = entry("grid",
                                "cells of " + std::to_string(s.cell) + " px, " + std::to_string(s.slices) + " distances, " +
-                                   std::to_string((sizes.bytes + 500000) / 1000000) + " MB, when something moved",
+                                   std::to_string((bytes_of(m.room) + 500000) / 1000000) + " MB, when something moved",
                                points * 32, offer.of_grid))
         return e;
     return create_map_passes(services, host, state);
@@ -223,6 +261,7 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
                           State &state)
 {
     Maps &m = state.maps;
+    fit_grid(scene, state);
     maps::place_slices(scene, m.settings.slices, m.distances);
     if (brume_status s = upload(services, host, upload_slices, 1, m.distances, m.slices))
         return s;
@@ -252,6 +291,8 @@ public:
         constants_.grid.summed = sums_lights(*frame.scene, state, gathers_orders(state), constants_.grid.cell);
     }
 
+    // Sums go as far as the picture shows, which may change with any frame.
+    bool has_sums() const { return constants_.grid.summed; }
     int lights_at_once() const { return constants_.grid.summed ? maps_.kept : most_depths; }
     // Whether there is room for the maps of all lights.
     bool keeps() const { return int(frame_.scene->light_count) <= maps_.kept; }
@@ -314,6 +355,7 @@ brume_status Run::lights(int first, int last)
     images[slot::lights] = product(product_lights);
     images[slot::slices] = maps_.slices;
     images[slot::grid_density] = maps_.density;
+    images[slot::depth] = frame_.depth;
     images[slot::result] = maps_.lights;
     return services_.run(host_, maps_.lights_pass, images, &constants, constants.grid.columns, constants.grid.rows, nullptr);
 }
@@ -373,7 +415,7 @@ brume_status gather_by_maps(const brume_services &services, brume_host host, con
         now.first = wanted.first + round * at_once;
         now.last = std::min(now.first + at_once, wanted.last);
         const ivec2 range(now.first, now.last);
-        if (range.x < range.y && m.in_grid != range) {
+        if (range.x < range.y && (m.in_grid != range || run.has_sums())) {
             if (!run.keeps())
                 if (brume_status s = run.maps_of(range.x, range.y))
                     return s;

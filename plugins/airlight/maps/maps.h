@@ -23,6 +23,8 @@ struct Maps {
     brume_pass lights_pass = nullptr;
     brume_pass gather_pass = nullptr;
 
+    brume::maths_float::ivec2 room{0};  // size of the grid's images
+
     // Refreshed when something moved.
     brume_plugin_image slices = nullptr;
     std::vector<float> distances;

@@ -33,7 +33,7 @@ namespace density {
 enum Slot { gaussians, tiles, tile_gaussians, slices, result, slot_count };
 }
 namespace lights {
-enum Slot { attenuation, frames, lights, slices, grid_density, result, slot_count };
+enum Slot { attenuation, frames, lights, slices, grid_density, depth, result, slot_count };
 }
 namespace gather {
 enum Slot {

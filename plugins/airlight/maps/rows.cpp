@@ -1,5 +1,6 @@
 // Method `maps` on the CPU.
 #include <algorithm>
+#include <vector>
 
 #include "lanes.hpp"
 #include "maps/passes.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "maps/slices.h"
@@ -13,7 +14,7 @@ Fineness fineness_of(double max_error)
     if (max_error > 0.05)
         return {0.9, 0.8, 48, 64, 24, 0.4, 0.5, 0.015};
     if (max_error >= 0.005)
-        return {0.5, 2, 64, 128, 64, 0.2, 0.2, 0.002};
+        return {0.5, 2, 64, 128, 64, 0.2, 0.2, 0.0018};
     return {0.35, 2.8, 128, 256, 64, 0.1, 0.12, 0.0015};
 }
 
@@ -23,12 +24,17 @@ Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least
     // A Gaussian's deviation on the screen, of the tenth part that are the smallest.
     double deviation = width / 120.0;
     if (scene.gaussians && scene.gaussian_count > 0) {
-        std::vector<double> all;
+        // Noise bends rays at Gaussians, by its own wavelength and not by theirs.
+        const float(&noise)[4] = scene.medium->noise;
+        const double of_noise = noise[0] > 0 ? 0.35 / double(noise[1]) : std::numeric_limits<double>::infinity();
+        static thread_local std::vector<double> all;  // frames allocate nothing once warm
+        all.clear();
         for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
             const brume_plugin_gaussian &g = scene.gaussians[i];
             const double distance = std::hypot(g.center[0], g.center[1], g.center[2]);
             if (-g.center[2] + 2 / g.scale > 0)
-                all.push_back(scene.camera->focal[0] * 0.7071 / std::max(double(g.scale) * distance, 1.0));
+                all.push_back(scene.camera->focal[0] * 0.7071 / std::max(double(g.scale) * distance, 1.0) *
+                              std::min(of_noise * double(g.scale), 1.0));
         }
         if (!all.empty()) {
             const auto tenth = all.begin() + std::ptrdiff_t(all.size() / 10);
