@@ -59,7 +59,7 @@ int bench(const BenchCommand &command)
     check_ending("--png", command.png, ".png");
     const SceneText scene = read_scene(command.fog.scene, command.fog.set);
     Fogger fogger(command.fog);  // before the picture, so that errors in the scene come first, and from the library
-    const Context &context = fogger.context(), cpu = create_context("cpu");
+    const Context &context = fogger.context(), cpu = create_context("cpu", command.fog.plugins);
     const Sample sample = sample_of(command, fogger, scene);
     BenchReport report = report_for(context, scene, sample, command.options);
     const std::vector<std::string> effects = effects_to_measure(context, scene, sample);

@@ -56,6 +56,7 @@ void FogOptions::add_scene_to(CLI::App &command)
     command.add_option("--backend", backend, "auto (GL where a GPU is found), gl or cpu")
         ->capture_default_str()
         ->type_name("{auto,gl,cpu}");
+    add_plugins_option(command, plugins);
     command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")
         ->type_name("EFFECT.PARAM=VALUE")
         ->allow_extra_args(false);
@@ -89,7 +90,7 @@ void FogOptions::add_to(CLI::App &command)
 Fogger::Fogger(const FogOptions &options) : Fogger(options, read_scene(options.scene, options.set)) {}
 
 Fogger::Fogger(const FogOptions &options, const SceneText &text)
-    : options_(options), context_(create_context(options.backend)), scene_(make_scene(context_, text))
+    : options_(options), context_(create_context(options.backend, options.plugins)), scene_(make_scene(context_, text))
 {
     options.picture.depth_kind();
     options.picture.sky();
