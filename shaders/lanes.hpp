@@ -25,8 +25,8 @@
 #define R(x) real(x)
 #define IN(type) const type &
 
-// All inlined into one loop runs a seventh faster, and takes twice as long to compile: not where the loop runs on few machines, or slowly
-// anyway.
+// All inlined into one loop runs a seventh faster, and takes twice as long to compile: not where the loop runs on few
+// machines, or slowly anyway.
 #if defined(BRUME_AVX2) || defined(__SANITIZE_ADDRESS__)
 #define BRUME_PURE_GENERIC inline
 #else
