@@ -80,11 +80,11 @@ brume_status races(const brume_plugin_rows *call, int32_t, int32_t)
 // Whether this build's sanitizer would tell of rows that race.
 TEST(CpuBackendDeathTest, ARaceOfTwoBlocksIsReported)
 {
+    if (make_cpu_backend(2)->threads() < 2)
+        GTEST_SKIP() << "there is one processor";
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const auto run = [] {
         const std::unique_ptr<Backend> backend = make_cpu_backend(2);
-        if (backend->threads() < 2)
-            std::exit(2);
         brume_pass_desc desc{};
         desc.struct_size = sizeof desc;
         desc.name = "race";
