@@ -73,7 +73,7 @@ public:
             depth += integral_of(seen_[i], t);
             if (shadow.peak > 1e-14 * most_[i])
                 to_light += integral_of(shadow, d);
-            scattering += seen_[i].peak * std::exp(-y * y) * g.colour;
+            scattering += seen_[i].peak * std::exp(-y * y) * g.color;
         }
         const vec3 extinction = medium.scattering + medium.absorption;
         vec3 arrives = strength * light_.intensity * glm::exp(-extinction * std::min(to_light, density_limit));

@@ -3,13 +3,11 @@
 #include <stdexcept>
 #include <thread>
 
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
 #endif
 
+#include "cpu/threads.h"
 #include "plan/backend.h"
 #include "base/error.h"
 #include "plan/idle_images.h"
@@ -27,14 +25,17 @@ struct CpuImage : Image {
     uint64_t idle_since = 0;
 };
 
+#if defined(__x86_64__) && defined(__GNUC__)
+// Not within the function: whoever comes to a static there after the first comes after it for the thread sanitizer, too.
+const bool has_wide_registers = __builtin_cpu_supports("avx");
+#endif
+
 // Row functions made for AVX may return with the upper halves of its registers in use (GCC leaves them so after calls that
-// return vectors). Whatever comes next on the thread without AVX, the host's own code too, would take up to ten times as
-// long.
+// return vectors). Whatever comes next on the thread without AVX, the host's own code too, would be up to ten times slower.
 void rest_wide_registers()
 {
 #if defined(__x86_64__) && defined(__GNUC__)
-    static const bool are_wide = __builtin_cpu_supports("avx");
-    if (are_wide)
+    if (has_wide_registers)
         asm volatile("vzeroupper");
 #endif
 }
@@ -124,8 +125,10 @@ private:
     std::vector<std::pair<int, Clock::time_point>> marks_;
 };
 
-/// Debian's TBB is built without the thread sanitizer, which therefore does not see what was done before what.
-struct Handover {
+/// For the thread sanitizer, which does not see into TBB: what was done before give() is done for whoever takes. Two that
+/// give to the same object come in no order by that.
+class Handover {
+public:
 #ifdef __SANITIZE_THREAD__
     void give()
     {
@@ -139,18 +142,45 @@ struct Handover {
     void give() {}
     void take() {}
 #endif
+
+private:
+    char address_ = 0;  // of its own
+};
+
+/// Blocks come after what the caller did, and the caller goes on after them, whatever they throw; they come in no order
+/// among themselves.
+template <class Function> class Blocks {
+public:
+    explicit Blocks(Function &function) : function_(function) { begun_.give(); }
+    ~Blocks() { done_.take(); }
+    Blocks(const Blocks &) = delete;
+
+    static void run(void *blocks, int block)
+    {
+        auto &self = *static_cast<Blocks *>(blocks);
+        self.begun_.take();
+        struct Given {
+            Handover &done;
+            ~Given() { done.give(); }
+        } given{self.done_};
+        self.function_(block);
+    }
+
+private:
+    Function &function_;
+    Handover begun_, done_;
 };
 
 class CpuBackend : public Backend {
 public:
     explicit CpuBackend(uint32_t threads)
-        : threads_(threads ? std::min(threads, most_threads()) : most_threads()), arena_(int(threads_))
+        : count_(threads ? std::min(threads, Threads::most()) : Threads::most()), threads_(count_)
     {
     }
 
     uint32_t kind() const override { return BRUME_BACKEND_CPU; }
     std::string device() const override { return "CPU"; }
-    uint32_t threads() const override { return threads_; }
+    uint32_t threads() const override { return count_; }
     uint64_t host_bytes() const override { return pool_->bytes(); }
     uint64_t device_bytes() const override { return 0; }
     void invoke(const std::function<void()> &work) override { work(); }
@@ -237,7 +267,7 @@ public:
         for_rows(image.height, [&](int y) {
             const float *row = from.data + y * from.row_stride;
             if (int64_t n = from.channels == 1 ? store_row_scalar(row, host, y) : store_row_rgba(row, host, y))
-                saturated += n;
+                saturated.fetch_add(n, std::memory_order_relaxed);
         });
         return saturated;
     }
@@ -274,25 +304,27 @@ public:
                                      pass.pixels.data(), constants, &scene, user};
         // Blocks are fixed by grain alone and never by the number of threads, so an effect that sums over its block
         // gives the same bits on any machine.
+        // Relaxed: blocks are in no order, and what one does that races with another is to be found.
+        constexpr auto relaxed = std::memory_order_relaxed;
         std::atomic<brume_status> status = BRUME_OK;
         std::atomic<int32_t> done = 0;
         const std::thread::id caller = std::this_thread::get_id();
         const int32_t grain = std::min(pass.grain, height);
         const int32_t blocks = height / grain + (height % grain != 0);
         for_blocks(blocks, [&](int32_t block) {
-            if (status != BRUME_OK)
+            if (status.load(relaxed) != BRUME_OK)
                 return;
             const auto last = int32_t(std::min<int64_t>(height, (int64_t(block) + 1) * grain));
             brume_status result = pass.function(&call, block * grain, last);
             rest_wide_registers();
             // Only the thread of the API call may report, between the blocks that it takes itself.
-            const int32_t rows = done += last - block * grain;
+            const int32_t here = last - block * grain, rows = done.fetch_add(here, relaxed) + here;
             if (watch && std::this_thread::get_id() == caller &&
                 !watch->progress.report(watch->from + (watch->to - watch->from) * rows / height))
                 result = BRUME_ERROR_CANCELLED;
             brume_status none = BRUME_OK;
             if (result != BRUME_OK)
-                status.compare_exchange_strong(none, result);
+                status.compare_exchange_strong(none, result, relaxed);
         });
         return status;
     }
@@ -303,9 +335,6 @@ private:
         auto &cpu = static_cast<CpuImage &>(image);
         return {cpu.data, cpu.row_stride, cpu.width, cpu.height, cpu.channels, 0};
     }
-
-    // An arena of more than the process may use would only make TBB warn.
-    static uint32_t most_threads() { return uint32_t(oneapi::tbb::info::default_concurrency()); }
 
     template <class Function> void for_rows(int height, Function function)
     {
@@ -318,16 +347,8 @@ private:
 
     template <class Function> void for_blocks(int count, Function function)
     {
-        Handover handover;
-        arena_.execute([&] {
-            handover.give();
-            oneapi::tbb::parallel_for(0, count, [&](int block) {
-                handover.take();
-                function(block);
-                handover.give();
-            });
-            handover.take();
-        });
+        Blocks<Function> blocks(function);
+        threads_.run(count, &Blocks<Function>::run, &blocks);
     }
 
     static std::shared_ptr<CpuImage> wrap(const brume_image &image, const HostPixels &host)
@@ -341,8 +362,8 @@ private:
         return wrapped;
     }
 
-    uint32_t threads_;
-    oneapi::tbb::task_arena arena_;
+    uint32_t count_;
+    Threads threads_;
     std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
 };
 

@@ -1,5 +1,5 @@
 // Airlight: what lights scatter once toward the camera (Sun et al. 2005 sec. 3, Zhou et al. 2007 sec. 3),
-//   L = int_0^D C_s (rho_0 + sum_i colour_i rho_i) p(mu) I / d^2 e^(-C_t (P(v,x) + P(x,s))) dt.
+//   L = int_0^D C_s (rho_0 + sum_i color_i rho_i) p(mu) I / d^2 e^(-C_t (P(v,x) + P(x,s))) dt.
 // What its tiers share. Needs shadow.glsl, shadow_map.glsl, lit.glsl.
 
 const int airlight_sun = 0;

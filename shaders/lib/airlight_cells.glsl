@@ -123,7 +123,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                 float part = depth * (erf(profile.scale * (edge[j] - profile.middle)) - before);
                 to[j] += part;
                 moment[j] += arm * part - R(0.5) * profile_length(profile) / profile.scale * exp(-x * x);
-                coloured[j] += g.colour * part;
+                coloured[j] += g.color * part;
             }
         }
         // From here on: the centroid in `moment`, what is visible of the mass in `coloured`, the errors in `weight`.

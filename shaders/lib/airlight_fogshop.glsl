@@ -67,7 +67,7 @@ PURE Airlight airlight_by_projection(IN(Medium) medium, IN(Camera) camera, IN(Ai
             float strength = lit_strength(medium, light, aspect, sight.direction, t);
             // The exponents of f0 and f1 are added before the exp: apart they overflow.
             float depth = view + own_density(g, light, point) + data_texel(blob_density, row + 1 + l).x;
-            vec3 scale = min(share * transmittance(medium, clamp(depth, R(0.0), density_limit)) * medium.scattering * g.colour,
+            vec3 scale = min(share * transmittance(medium, clamp(depth, R(0.0), density_limit)) * medium.scattering * g.color,
                              vec3(density_limit));
             sum.radiance += min(strength * light.intensity, vec3(radiance_limit)) * scale;
             // The sample against the two of Gauss-Hermite: how much the light varies over the Gaussian.

@@ -166,7 +166,7 @@ PURE Panel orders_panel(IN(Medium) medium, IN(Camera) camera, IN(AirlightSetting
         for (int k = 0; k < panel_nodes; ++k)
             p[k] += depth * (erf(profile.scale * (t[k] - profile.middle)) - before);
         if (i == part) {
-            scattering *= g.colour;
+            scattering *= g.color;
             for (int k = 0; k < panel_nodes; ++k)
                 mass[k] = min(mass[k] * profile_density(profile, t[k]), radiance_limit);
         }

@@ -157,7 +157,7 @@ PURE Panel panel_of(IN(Medium) medium, IN(Camera) camera, SHADOW_IMAGES, sampler
         for (int k = 0; k < panel_nodes; ++k)
             p[k] += depth * (erf(profile.scale * (t[k] - profile.middle)) - before);
         if (i == part) {
-            scattering *= g.colour;
+            scattering *= g.color;
             for (int k = 0; k < panel_nodes; ++k)
                 rho[k] = profile_density(profile, t[k]);
         }

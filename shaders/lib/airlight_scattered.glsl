@@ -105,7 +105,7 @@ PURE vec3 scattered_along(IN(Medium) medium, IN(Camera) camera, IN(ScatteredSett
             for (int k = 1; k <= steps; ++k) {
                 float part = column_part(depth, profile.scale, profile.middle, before, to[k]);
                 passed[k] += part;
-                coloured[k] += g.colour * part;
+                coloured[k] += g.color * part;
             }
         }
     }

@@ -5,7 +5,7 @@ struct Gaussian {
     vec3 center;      // camera space [m]
     float scale;      // a [1/m]; the radius is 1/a
     float amplitude;  // c
-    vec3 colour;      // share of what it scatters that is not absorbed after all
+    vec3 color;       // share of what it scatters that is not absorbed after all
 };
 
 PURE Gaussian gaussian_at(sampler2D gaussians, int i)

@@ -53,7 +53,7 @@ void main()
             float depth = 0.886226925453 * profile_length(p);
             for (int j = 0; j < together; ++j) {
                 float part = column_part(depth, p.scale, p.middle, before, distance[j]);
-                sum[j] += part * vec4(1.0, g.colour);
+                sum[j] += part * vec4(1.0, g.color);
             }
         }
         for (int j = 0; j < together; ++j)

@@ -1,8 +1,7 @@
 # cmake -DSOURCE= -DBUILD= -DWORK= -DGENERATOR= -DC_COMPILER= -DCXX_COMPILER= -P InstalledSdk.cmake
-# Installs the SDK into WORK and builds and runs the samples against it as strangers do: nothing of the build tree is seen.
+# Installs the SDK into WORK and builds and runs the samples against it as strangers do: nothing of the build tree is seen. With
+# -DCLANG=ON, afterwards, what of it the other compiler is to take.
 set(sdk ${WORK}/sdk)
-file(REMOVE_RECURSE ${WORK})
-file(MAKE_DIRECTORY ${WORK})
 
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -19,6 +18,28 @@ function(build name source)
   run(${CMAKE_COMMAND} --build ${WORK}/${name})
 endfunction()
 
+if(CLANG)
+  find_program(CLANG_CXX NAMES clang++-16 clang++-17 clang++-18 clang++-19)
+  if(NOT CLANG_CXX)
+    message("not done: no clang++-16 to -19 is here")
+    return()
+  endif()
+  # The maths are vector extensions and pragmas too: they are to compile as they are.
+  run(${CLANG_CXX} -std=c++20 -Wall -Wextra -Werror -I${sdk}/include ${SOURCE}/tests/abi/installed/use_maths.cpp
+    -o ${WORK}/use_maths_clang -lm)
+  run(${WORK}/use_maths_clang)
+  file(WRITE ${WORK}/lanes.cpp "#include <brume/maths/lanes.hpp>\n")
+  run(${CLANG_CXX} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I${sdk}/include ${WORK}/lanes.cpp)
+  # So it is with the sample effects.
+  string(REPLACE "clang++" "clang" C_COMPILER ${CLANG_CXX})
+  set(CXX_COMPILER ${CLANG_CXX})
+  build(third_party_plugin_clang ${SOURCE}/samples/third_party_plugin)
+  run(${WORK}/load_effect/load_effect ${sdk} ${WORK}/third_party_plugin_clang)
+  return()
+endif()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
 foreach(component runtime development)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${sdk} --component ${component})
 endforeach()
@@ -56,18 +77,14 @@ build(load_effect ${SOURCE}/tests/abi/installed)
 run(${WORK}/load_effect/load_effect ${sdk} ${WORK}/third_party_plugin)
 run(${WORK}/load_effect/use_maths)
 
-# The maths are vector extensions and pragmas too: the other compiler takes them as they are.
-find_program(CLANG NAMES clang++-16 clang++-17 clang++-18 clang++-19)
-if(CLANG)
-  run(${CLANG} -std=c++20 -Wall -Wextra -Werror -I${sdk}/include ${SOURCE}/tests/abi/installed/use_maths.cpp
-    -o ${WORK}/use_maths_clang -lm)
-  run(${WORK}/use_maths_clang)
-  file(WRITE ${WORK}/lanes.cpp "#include <brume/maths/lanes.hpp>\n")
-  run(${CLANG} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I${sdk}/include ${WORK}/lanes.cpp)
-  # So it is with the sample effects.
-  string(REPLACE "clang++" "clang" CLANG_C ${CLANG})
-  set(C_COMPILER ${CLANG_C})
-  set(CXX_COMPILER ${CLANG})
-  build(third_party_plugin_clang ${SOURCE}/samples/third_party_plugin)
-  run(${WORK}/load_effect/load_effect ${sdk} ${WORK}/third_party_plugin_clang)
-endif()
+# The example of the page, by the lines that the page has for it.
+file(MAKE_DIRECTORY ${WORK}/gain)
+foreach(kind_file cpp:gain.cpp cmake:CMakeLists.txt)
+  string(REGEX MATCH "(.*):(.*)" matched ${kind_file})
+  run(${CMAKE_COMMAND} -DPAGES=${SOURCE}/docs/plugins.md -DKIND=${CMAKE_MATCH_1} -DDIRECTORY=${WORK}/blocks
+    -P ${SOURCE}/tests/docs/Extract.cmake)
+  file(GLOB block ${WORK}/blocks/*)
+  file(COPY_FILE ${block} ${WORK}/gain/${CMAKE_MATCH_2})
+endforeach()
+build(gain/build ${WORK}/gain)
+run(${WORK}/load_effect/load_effect ${sdk} ${WORK}/gain/build gain)

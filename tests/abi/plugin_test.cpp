@@ -235,6 +235,74 @@ TEST_F(Strangers, RunInOrderAfterOurs)
     expect_same_bits(expected, output);
 }
 
+// An effect of a stranger's makes an image, another one adds it to the picture.
+class MadeByEffects : public EachBackend {
+protected:
+    void SetUp() override
+    {
+        EachBackend::SetUp();
+        if (context)
+            context = context_with(BRUME_TEST_PLUGIN_DIR, GetParam());
+        paint(color);
+    }
+    Plan planned(const std::string &effects)
+    {
+        return make_plan(context, make_scene(context, R"({"brume": 1, "effects": {)" + effects + "}}"), ray_format(16, 12));
+    }
+    static std::vector<std::string> entries(const Plan &plan)
+    {
+        brume_plan_info info = BRUME_PLAN_INFO_INIT;
+        EXPECT_EQ(brume_plan_get_info(plan.get(), &info), BRUME_OK);
+        std::vector<std::string> entries;
+        for (uint32_t i = 0; i < info.entry_count; ++i) {
+            brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+            EXPECT_EQ(brume_plan_get_entry(plan.get(), i, &entry), BRUME_OK);
+            entries.push_back(std::string(entry.effect) + ": " + entry.reason);
+        }
+        return entries;
+    }
+    void expect_added(const Plan &plan, float share)
+    {
+        ASSERT_EQ(execute(plan.get(), color, depth, output), BRUME_OK) << message(context.get());
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 16; ++x)
+                for (int c = 0; c < 4; ++c)
+                    ASSERT_EQ(output.get(x, y, c), color.get(x, y, c) + (c < 3 ? share * color.get(x, y, 0) : 0))
+                        << x << ", " << y << ", " << c;
+    }
+
+    Picture color{16, 12}, depth{16, 12, {.channels = 1}}, output{16, 12};
+};
+INSTANTIATE_EACH_BACKEND(MadeByEffects);
+
+TEST_P(MadeByEffects, ProductsReachThoseThatUseThem)
+{
+    const Plan plan = planned(R"("uses_shade": {}, "makes_shade": {"share": 0.5})");
+    EXPECT_EQ(entries(plan), (std::vector<std::string>{"makes_shade: shade is asked for", "uses_shade: shade is made"}));
+    expect_added(plan, 0.5f);
+    // That of this frame, not of the one before.
+    for (int x = 0; x < 16; ++x)
+        color.set(x, 5, 0, float(x));
+    expect_added(plan, 0.5f);
+}
+
+TEST_P(MadeByEffects, ProductsThatNobodyMakesHaveNoImages)
+{
+    const Plan alone = planned(R"("uses_shade": {})");
+    EXPECT_EQ(entries(alone), std::vector<std::string>{"uses_shade: nobody makes shade"});
+    expect_added(alone, 0);
+    const Plan dropped = planned(R"("uses_shade": {}, "makes_shade": {"share": 0})");
+    EXPECT_EQ(entries(dropped).back(), "uses_shade: nobody makes shade");
+    expect_added(dropped, 0);
+}
+
+TEST_P(MadeByEffects, NoOtherProductsMayBePublished)
+{
+    const Plan plan = planned(R"("makes_shade": {"strays": true})");
+    expect_status(context.get(), execute(plan.get(), color, depth, output), BRUME_ERROR_ARGUMENT,
+                  "publish: gloom is not among what the effect's table says it makes");
+}
+
 #ifdef BRUME_GL
 TEST(ThirdParty, CpuOnlyEffectOnGlSaysSo)
 {

@@ -182,6 +182,65 @@ TEST_F(Bench, ListsSettingsThatTheSceneRefuses)
     EXPECT_TRUE(nodes["against"]["truth"].is_null());
 }
 
+// Where no effects are named, surface runs for the layers that it reads.
+TEST_F(Bench, MeasuresWithTheLayersThatRunTakes)
+{
+    write_text(fog_, R"({"brume":1,"medium":{"scattering":0.02,"absorption":0.01},
+        "camera":{"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "lights":[{"type":"point","position":[0,2,-5],"intensity":9}]})");
+    const auto measured = [&](std::vector<std::string> more) {
+        const fs::path out = folder_ / "bench.json";
+        more.insert(more.end(), {"--json", out.string(), "--scale", "1/4"});
+        const Result r = run(fog_, more);
+        EXPECT_EQ(r.status, 0) << r.err;
+        std::vector<std::string> names;
+        const json report = r.status == 0 ? json::parse(read_text(out)) : json{{"effects", json::array()}};
+        for (const json &group : report["effects"])
+            names.push_back(group["effect"]);
+        return names;
+    };
+    const std::vector<std::string> clear{"airlight", "multiscatter"}, lit{"airlight", "multiscatter", "surface"};
+    EXPECT_EQ(measured({}), clear);
+    TestPart part{rgbz()};
+    for (const char *axis : {"X", "Y", "Z"})
+        part.channels.push_back({std::string("facing.") + axis, Imf::HALF, constant(*axis == 'Z')});
+    write_exr(in_, {part});
+    EXPECT_EQ(measured({}), clear);
+    EXPECT_EQ(measured({"--input", "normal=facing"}), lit);
+    for (TestChannel &channel : part.channels)
+        if (channel.name.starts_with("facing."))
+            channel.name.replace(0, 6, "N");
+    write_exr(in_, {part});
+    EXPECT_EQ(measured({}), lit);
+    const Result wrong = run(fog_, {"--input", "normal=facing"});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("facing"), std::string::npos) << wrong.err;
+}
+
+TEST(Samples, LightIsAveragedAndDirectionsAreTakenFromTheMiddle)
+{
+    const auto layer = [](const char *role, int width) {
+        auto pixels = std::make_shared<std::vector<float>>();
+        for (int i = 0; i < 2 * width; ++i)
+            pixels->push_back(float(i));
+        return InputLayer{role, width, 2, 1, pixels};
+    };
+    Sample sample;
+    sample.format.width = 4;
+    sample.format.height = 2;
+    sample.channels = 3;
+    sample.color.assign(3 * 8, 1);
+    sample.depth.assign(8, 1);
+    sample.inputs = {layer("light_group", 4), layer("normal", 4), layer("shadow", 3)};
+    const Sample half = reduced(sample, 2);
+    EXPECT_EQ(*half.inputs[0].pixels, (std::vector<float>{2.5f, 4.5f}));
+    EXPECT_EQ(*half.inputs[1].pixels, (std::vector<float>{5, 7}));
+    EXPECT_EQ(*half.inputs[2].pixels, *sample.inputs[2].pixels);
+    EXPECT_EQ(half.inputs[1].width, 2);
+    EXPECT_EQ(half.inputs[1].height, 1);
+    EXPECT_EQ(half.inputs[2].width, 3);
+}
+
 // An effect of somebody else's, with parameters of each type.
 TEST_F(Bench, MeasuresWhatAPluginSaysOfItself)
 {

@@ -41,6 +41,22 @@ protected:
     const fs::path fog_ = folder_ / "fog.json", in_ = folder_ / "in.exr";
 };
 
+// Where a layer says how much fog there is, the scene's cross-sections no longer do.
+TEST_F(Sweep, LayersAreGivenByRole)
+{
+    TestPart part{rgbz()};
+    part.channels.push_back({"tau", Imf::FLOAT, constant(0.7)});
+    write_exr(in_, {part});
+    const Result r = sweep({"--count", "2", "--vary", "medium.absorption=0.01:1:log", "--input", "optical_depth=tau"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    const auto before = read_plane(in_, "R");
+    for (const json &line : lines(r.out)) {
+        const auto after = read_plane(line.at("output").get<std::string>(), "R");
+        for (std::size_t p = 0; p < before.size(); p += 41)
+            EXPECT_NEAR(after[p], before[p] * std::exp(-0.7), 1e-3);
+    }
+}
+
 TEST_F(Sweep, EachLineHasTheValuesThatMadeItsPicture)
 {
     const Result r = sweep({"--count", "4", "--seed", "9", "--vary", "medium.absorption=0.01:1:log", "--transmittance",

@@ -268,5 +268,32 @@ TEST_F(Tool, PlanEffectsAndSchemaExplainThemselves)
     EXPECT_EQ(brume({"--version"}).status, 0);
 }
 
+// Effects of a directory that the command line names, and of no other.
+TEST_F(Tool, FindsEffectsInADirectory)
+{
+    const fs::path plugins = folder_ / "plugins";
+    fs::create_directory(plugins);
+    fs::copy(BRUME_TEST_PLUGIN, plugins);
+    write_text(fog_, R"({"brume":1,"effects":{"well_behaved":{}}})");
+    write_exr(in_, {{rgbz()}});
+    const std::string in = in_.string(), fog = fog_.string();
+    const std::vector<std::string> commands[] = {{"effects", "well_behaved"},
+                                                 {"run", fog, in, "-o", out_.string(), "--backend", "cpu"},
+                                                 {"plan", fog, in, "--backend", "cpu"},
+                                                 {"bench", fog, in, "--backend", "cpu", "--repeat", "1"}};
+    for (std::vector<std::string> command : commands) {
+        EXPECT_EQ(brume(command).status, 2) << command[0];
+        command.insert(command.end(), {"--plugins", fs::relative(plugins).string()});
+        const Result r = brume(command);
+        EXPECT_EQ(r.status, 0) << command[0] << ": " << r.err;
+        command.back() = in;
+        const Result refused = brume(command);
+        EXPECT_EQ(refused.status, 2) << command[0];
+        EXPECT_NE(refused.err.find("--plugins " + in + ": no such directory"), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(brume({"schema"}).out.find("well_behaved"), std::string::npos);
+    EXPECT_NE(brume({"schema", "--plugins", plugins.string()}).out.find("well_behaved"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace brume::tests

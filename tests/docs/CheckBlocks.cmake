@@ -1,4 +1,4 @@
-# cmake -DALL=pages -DC=pages -DCPP=pages -DJSON=pages -DSH=pages -DPYTHON=pages -P CheckBlocks.cmake
+# cmake -DALL=pages -DC=pages -DCPP=pages -DJSON=pages -DSH=pages -DPYTHON=pages -DCMAKE=pages -P CheckBlocks.cmake
 # Every block of code in any page is one that some test here compiles or runs.
 cmake_minimum_required(VERSION 3.25)
 set(tested_c "${C}")
@@ -6,6 +6,7 @@ set(tested_cpp "${CPP}")
 set(tested_json "${JSON}")
 set(tested_sh "${SH}")
 set(tested_python "${PYTHON}")
+set(tested_cmake "${CMAKE}")  # by abi.installed_sdk
 foreach(page IN LISTS ALL)
   file(STRINGS "${page}" fences REGEX "^```[a-z]")
   foreach(fence IN LISTS fences)

@@ -171,7 +171,7 @@ inline Gaussian on_ray(Dice &dice, const Case &c, double t, double radius, doubl
     g.center = rounded(t * c.direction + side * radius * dice.uniform(0, 1.5));
     g.scale = float(1 / radius);
     g.amplitude = float(depth / (extinction * radius * 1.7724539));
-    g.colour = vec3(1, 1, float(dice.uniform(0.5, 1)));
+    g.color = vec3(1, 1, float(dice.uniform(0.5, 1)));
     return g;
 }
 
@@ -258,7 +258,7 @@ inline Case bank(Dice &dice, int n)
         g.scale = float(1 / r);
         // So many along the ray add up to the optical depth.
         g.amplitude = float(density * 2 * light / (n * 0.6 * 1.77 * r) * dice.uniform(0.5, 1.5));
-        g.colour = vec3(1);
+        g.color = vec3(1);
         c.gaussians.push_back(g);
     }
     return c;

@@ -28,7 +28,7 @@ f64::Gaussian random_gaussian(Dice &dice, f64::vec3 direction)
     f64::Gaussian g{};
     g.scale = dice.logarithmic(0.01, 100);
     g.amplitude = dice.logarithmic(0.01, 100);
-    g.colour = f64::vec3(1);
+    g.color = f64::vec3(1);
     const f64::vec3 side = glm::normalize(glm::cross(direction, dice.direction()));
     g.center = airlight_cases::rounded(direction * (dice.uniform(-4, 8) / g.scale) + side * (dice.uniform(0, 2) / g.scale));
     return g;
@@ -36,7 +36,7 @@ f64::Gaussian random_gaussian(Dice &dice, f64::vec3 direction)
 
 f32::Gaussian narrowed(const f64::Gaussian &g)
 {
-    return {f32::vec3(g.center), float(g.scale), float(g.amplitude), f32::vec3(g.colour)};
+    return {f32::vec3(g.center), float(g.scale), float(g.amplitude), f32::vec3(g.color)};
 }
 
 }  // namespace

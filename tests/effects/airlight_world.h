@@ -37,8 +37,7 @@ public:
     {
         const int n = int(c.gaussians.size());
         for (const Gaussian &g : c.gaussians)
-            append(gaussians_,
-                   {g.center.x, g.center.y, g.center.z, g.scale, g.amplitude, g.colour.x, g.colour.y, g.colour.z});
+            append(gaussians_, {g.center.x, g.center.y, g.center.z, g.scale, g.amplitude, g.color.x, g.color.y, g.color.z});
         for (const Light &l : c.lights)
             append(lights_, {l.position.x, l.position.y, l.position.z, l.radius, l.direction.x, l.direction.y, l.direction.z,
                              l.cos_outer, l.intensity.x, l.intensity.y, l.intensity.z, l.cos_inner, double(l.type),

@@ -1,5 +1,10 @@
 #include "plan/backend.h"
 
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 namespace brume {
@@ -44,6 +49,54 @@ TEST(CpuBackend, LeavesWideRegistersAtRest)
         ASSERT_EQ(backend->run(*pass, nullptr, nullptr, 4, 4, brume_plugin_scene{}, nullptr, nullptr), BRUME_OK);
         EXPECT_TRUE(wide_registers_rest());
     });
+}
+#endif
+
+#ifdef __SANITIZE_THREAD__
+struct Race {
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<int> stage = 0;
+    alignas(64) int written = 0;  // by itself: of each few bytes the sanitizer remembers few accesses
+};
+
+// A block of the caller's writes, and one of another thread's that begins when that has ended: one after the other in time,
+// yet in no order that anything but luck gives them.
+brume_status races(const brume_plugin_rows *call, int32_t, int32_t)
+{
+    constexpr auto relaxed = std::memory_order_relaxed;
+    Race &race = *static_cast<Race *>(call->user);
+    const bool is_caller = std::this_thread::get_id() == race.caller;
+    const int stage = race.stage.load(relaxed);
+    if (stage == 3)
+        return BRUME_OK;
+    if (is_caller ? stage == 0 : stage == 2)
+        race.written = stage;
+    if (is_caller ? stage < 2 : stage == 2)
+        race.stage.store(stage + 1, relaxed);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return BRUME_OK;
+}
+
+// Whether this build's sanitizer would tell of rows that race.
+TEST(CpuBackendDeathTest, ARaceOfTwoBlocksIsReported)
+{
+    if (make_cpu_backend(2)->threads() < 2)
+        GTEST_SKIP() << "there is one processor";
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto run = [] {
+        const std::unique_ptr<Backend> backend = make_cpu_backend(2);
+        brume_pass_desc desc{};
+        desc.struct_size = sizeof desc;
+        desc.name = "race";
+        desc.rows = races;
+        desc.grain = 1;
+        Race race;
+        const std::shared_ptr<Pass> pass = backend->create_pass(desc, layout_of(desc));
+        backend->run(*pass, nullptr, nullptr, 4, 5000, brume_plugin_scene{}, &race, nullptr);
+        std::exit(race.stage == 3 ? 0 : 3);
+    };
+    constexpr int reported = 66;
+    EXPECT_EXIT(run(), testing::ExitedWithCode(reported), "data race(.|\n)*races");
 }
 #endif
 

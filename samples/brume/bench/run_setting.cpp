@@ -28,6 +28,10 @@ Plan plan_of(const Context &context, const SceneText &text, const Setting *setti
     const auto &weights = sample.weights;
     check_request(context, scene.set_luminance_weights(weights[0], weights[1], weights[2]), sample.name);
     brume_format format = sample.format;
+    const std::vector<std::string> roles = roles_of(sample.inputs);
+    const std::vector<brume_layer> given = input_layers(roles);
+    format.inputs = given.data();
+    format.input_count = std::uint32_t(given.size());
     const brume_layer wanted = brume::layer(output.c_str());
     if (!output.empty()) {
         format.outputs = &wanted;
@@ -60,6 +64,8 @@ double SettingRun::execute()
     frame.color = &color;
     frame.depth = &depth;
     frame.output = &out;
+    const GivenLayers inputs(sample_.inputs);
+    inputs.give_to(frame);
     frame.camera = &sample_.camera;
     frame.frame = sample_.frame;
     if (!output_.empty()) {

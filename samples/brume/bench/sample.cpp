@@ -4,6 +4,7 @@
 
 #include "colour/color_manager.hpp"
 #include "image/frame.hpp"
+#include "run/fogger.hpp"
 #include "run/sequence.hpp"
 #include "support/error.hpp"
 
@@ -29,6 +30,32 @@ std::vector<float> averaged(const std::vector<float> &pixels, int width, int hei
     return out;
 }
 
+std::vector<float> from_middles(const std::vector<float> &pixels, int width, int height, int channels, int factor)
+{
+    const int w = width / factor, h = height / factor;
+    std::vector<float> out;
+    out.reserve(std::size_t(w) * std::size_t(h) * std::size_t(channels));
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) {
+            const auto middle =
+                pixels.begin() +
+                (std::ptrdiff_t(y * factor + factor / 2) * width + x * factor + factor / 2) * std::ptrdiff_t(channels);
+            out.insert(out.end(), middle, middle + channels);
+        }
+    return out;
+}
+
+void reduce(InputLayer &input, int factor)
+{
+    if (input.role == kShadow)
+        return;  // the light's picture, of a size of its own
+    const auto reduced = input.role == kLightGroup ? averaged : from_middles;
+    input.pixels = std::make_shared<const std::vector<float>>(
+        reduced(*input.pixels, input.width, input.height, input.channels, factor));
+    input.width /= factor;
+    input.height /= factor;
+}
+
 }  // namespace
 
 Picture picture_of(const std::vector<float> &pixels, int width, int height, int channels)
@@ -41,7 +68,7 @@ Picture picture_of(const std::vector<float> &pixels, int width, int height, int 
 }
 
 Sample load_sample(const FrameFile &file, const PictureOptions &options, const CameraBlock &scene_camera,
-                   const std::string &truth)
+                   const std::string &truth, Fogger *fogger)
 {
     const ColorManager colors;
     OpenFrame open = open_frame(file, options, {});
@@ -54,7 +81,14 @@ Sample load_sample(const FrameFile &file, const PictureOptions &options, const C
     sample.camera = shot.camera;
     sample.frame = file.frame;
     sample.weights = colors.luminance_weights(header);
+    std::vector<OpenInput> inputs;
+    if (fogger) {
+        fogger->learn_roles(open.file, open.color, file.frame);
+        inputs = fogger->open_inputs(open.file, open.color, file.frame, {});
+    }
     Frame frame = read_frame(std::move(open.file), open.color, &depth);
+    for (const OpenInput &input : inputs)
+        sample.inputs.push_back(fogger->read_pixels(input, frame.file, frame.part(), nullptr));
     colors.file_to_working(frame);
     sample.channels = frame.channels;
     sample.color = std::move(frame.pixels);
@@ -84,12 +118,9 @@ Sample reduced(const Sample &sample, int factor)
     f.display_width /= factor;
     f.display_height /= factor;
     out.color = averaged(sample.color, sample.width(), sample.height(), sample.channels, factor);
-    out.depth.resize(std::size_t(f.width) * std::size_t(f.height));
-    for (int y = 0; y < f.height; ++y)
-        for (int x = 0; x < f.width; ++x)
-            out.depth[std::size_t(y) * std::size_t(f.width) + std::size_t(x)] =
-                sample.depth[std::size_t(y * factor + factor / 2) * std::size_t(sample.width()) +
-                             std::size_t(x * factor + factor / 2)];
+    out.depth = from_middles(sample.depth, sample.width(), sample.height(), 1, factor);
+    for (InputLayer &input : out.inputs)
+        reduce(input, factor);
     if (sample.truth)
         out.truth =
             Picture{0, 0, f.width, f.height, averaged(sample.truth->rgb, sample.width(), sample.height(), 3, factor)};

@@ -33,14 +33,14 @@ void check_ending(const std::string &option, const std::string &file, const std:
         throw RequestError(fmt::format("{} '{}': expected a name ending in {}", option, file, ending));
 }
 
-Sample sample_of(const BenchCommand &command, const Context &context, const SceneText &scene)
+Sample sample_of(const BenchCommand &command, Fogger &fogger, const SceneText &scene)
 {
-    make_scene(context, scene);  // so that errors in the scene come first, and from the library
     const CameraBlock camera = CameraBlock::of_scene(scene.text, scene.name);
     const FilePattern pattern(command.input);
     const Sample whole = [&] {
         try {
-            return load_sample(list_frames(pattern, pattern, "").front(), command.fog.picture, camera, command.truth);
+            return load_sample(list_frames(pattern, pattern, "").front(), command.fog.picture, camera, command.truth,
+                               &fogger);
         } catch (const FrameError &e) {
             // There is no other frame to go on with.
             throw RequestError(e.what());
@@ -58,8 +58,9 @@ int bench(const BenchCommand &command)
     check_ending("--svg", command.svg, ".svg");
     check_ending("--png", command.png, ".png");
     const SceneText scene = read_scene(command.fog.scene, command.fog.set);
-    const Context context = create_context(command.fog.backend), cpu = create_context("cpu");
-    const Sample sample = sample_of(command, context, scene);
+    Fogger fogger(command.fog);  // before the picture, so that errors in the scene come first, and from the library
+    const Context &context = fogger.context(), cpu = create_context("cpu", command.fog.plugins);
+    const Sample sample = sample_of(command, fogger, scene);
     BenchReport report = report_for(context, scene, sample, command.options);
     const std::vector<std::string> effects = effects_to_measure(context, scene, sample);
     if (effects.empty())
@@ -90,6 +91,7 @@ void add_bench(CLI::App &app, Action &chosen)
     auto *command = app.add_subcommand("bench", "Error against time of each effect's settings on your scene and frame");
     auto options = std::make_shared<BenchCommand>();
     options->fog.add_scene_to(*command);
+    add_input_option(*command, options->fog.inputs);
     command->add_option("FRAME", options->input, "EXR file, or a pattern: its first frame is taken")->required();
     command->add_option("--truth", options->truth, "EXR of the same view path-traced in the medium")->type_name("FILE");
     command->add_option("--scale", options->scale, "Reduce the frame first: 1, 1/2, 1/4, 1/8 or 1/16")

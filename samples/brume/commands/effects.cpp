@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "run/options.hpp"
 #include "support/sdk.hpp"
 #include "support/error.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct EffectsOptions {
-    std::string name;
+    std::string name, plugins;
     bool json = false;
 };
 
@@ -113,7 +114,7 @@ void print_effect(const Context &context, const brume_effect_info &effect)
 
 int effects(const EffectsOptions &options)
 {
-    const Context context = create_context("cpu");
+    const Context context = create_context("cpu", options.plugins);
     bool found = false;
     std::string known;
     ordered_json list = ordered_json::array();
@@ -145,9 +146,9 @@ int effects(const EffectsOptions &options)
     return kDone;
 }
 
-int schema()
+int schema(const std::string &plugins)
 {
-    const Context context = create_context("cpu");
+    const Context context = create_context("cpu", plugins);
     fmt::print("{}\n", context.scene_schema());
     return kDone;
 }
@@ -160,6 +161,7 @@ void add_effects(CLI::App &app, Action &chosen)
         "effects", "List effects, their parameters (type, default, range, unit) and the layers they read and fill");
     auto options = std::make_shared<EffectsOptions>();
     command->add_option("NAME", options->name, "Only this effect");
+    add_plugins_option(*command, options->plugins);
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([&chosen, options] { chosen = [options] { return effects(*options); }; });
 }
@@ -167,7 +169,9 @@ void add_effects(CLI::App &app, Action &chosen)
 void add_schema(CLI::App &app, Action &chosen)
 {
     auto *command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
-    command->callback([&chosen] { chosen = schema; });
+    auto plugins = std::make_shared<std::string>();
+    add_plugins_option(*command, *plugins);
+    command->callback([&chosen, plugins] { chosen = [plugins] { return schema(*plugins); }; });
 }
 
 }  // namespace brume::tool

@@ -25,7 +25,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct InfoOptions {
-    std::string input;
+    std::string input, plugins;
     PictureOptions picture;
     bool json = false;
     std::vector<std::string> inputs;  ///< role=layer
@@ -112,7 +112,7 @@ void describe_camera(ordered_json &info, const ImageFile &file, const InfoOption
 void describe_inputs(ordered_json &info, const ImageFile &file, const InfoOptions &options, const ColorChoice *color,
                      int frame)
 {
-    const Context context = create_context("cpu");
+    const Context context = create_context("cpu", options.plugins);
     const std::vector<InputRequest> asked = parse_inputs(context, options.inputs);
     if (!color && asked.empty())
         return;
@@ -248,6 +248,7 @@ void add_info(CLI::App &app, Action &chosen)
     command->add_option("INPUT", options->input, "EXR file, or a pattern such as shot.%04d.exr")->required();
     command->add_flag("--json", options->json, "Print JSON");
     options->picture.add_to(*command);
+    add_plugins_option(*command, options->plugins);
     add_input_option(*command, options->inputs);
     command->callback([&chosen, options] {
         options->picture.name_view({&options->input});

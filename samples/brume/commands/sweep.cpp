@@ -13,6 +13,7 @@ void add_sweep(CLI::App &app, Action &chosen)
     auto *command = app.add_subcommand("sweep", "Put fogs that are drawn by seed into one picture, for data sets");
     auto options = std::make_shared<SweepOptions>();
     options->fog.add_scene_to(*command);
+    add_input_option(*command, options->fog.inputs);
     command->add_option("PICTURE", options->input, "EXR, TIFF, PNG, JPEG, DPX, HDR, PFM or NPY file")->required();
     command->add_option("-o,--output", options->output, "Output pattern such as fog.####.png; folders are made")
         ->required()

@@ -18,8 +18,6 @@ namespace {
 /// A plan holds its images; a sequence with a moving data window meets a new format with every frame.
 constexpr std::size_t kMostPlans = 4;
 
-constexpr const char *kLightGroup = "light_group", *kShadow = "shadow";
-
 /// As brume_quality.detail.
 double detail_of(const ImageFile &file, const ColorChoice &color)
 {
@@ -32,36 +30,6 @@ double detail_of(const ImageFile &file, const ColorChoice &color)
         stored->to_floats(color.rgb[c], picture.rgb.data() + c, 3);
     return std::sqrt(measure(box_blurred(picture, 4), picture).relative_mse);
 }
-
-std::vector<brume_layer> input_layers(const std::vector<std::string> &roles)
-{
-    std::vector<brume_layer> layers;
-    for (const std::string &role : roles)
-        layers.push_back(brume::layer(role.c_str()));
-    return layers;
-}
-
-/// Inputs as a frame has them. The layers are kept by the caller.
-class GivenLayers {
-public:
-    explicit GivenLayers(const std::vector<InputLayer> &inputs)
-    {
-        images_.reserve(inputs.size());
-        for (const InputLayer &input : inputs) {
-            images_.push_back(brume::image(input.pixels->data(), input.width, input.height, std::uint32_t(input.channels)));
-            layers_.push_back(brume::layer(input.role.c_str(), &images_.back(), input.light));
-        }
-    }
-    void give_to(brume_frame &frame) const
-    {
-        frame.inputs = layers_.data();
-        frame.input_count = std::uint32_t(layers_.size());
-    }
-
-private:
-    std::vector<brume_image> images_;
-    std::vector<brume_layer> layers_;
-};
 
 bool reads_layer(const Context &context, const char *effect, const std::string &role)
 {
@@ -88,6 +56,7 @@ void FogOptions::add_scene_to(CLI::App &command)
     command.add_option("--backend", backend, "auto (GL where a GPU is found), gl or cpu")
         ->capture_default_str()
         ->type_name("{auto,gl,cpu}");
+    add_plugins_option(command, plugins);
     command.add_option("--set", set, "Set an effect's parameter, see `brume effects`; may be repeated")
         ->type_name("EFFECT.PARAM=VALUE")
         ->allow_extra_args(false);
@@ -121,7 +90,7 @@ void FogOptions::add_to(CLI::App &command)
 Fogger::Fogger(const FogOptions &options) : Fogger(options, read_scene(options.scene, options.set)) {}
 
 Fogger::Fogger(const FogOptions &options, const SceneText &text)
-    : options_(options), context_(create_context(options.backend)), scene_(make_scene(context_, text))
+    : options_(options), context_(create_context(options.backend, options.plugins)), scene_(make_scene(context_, text))
 {
     options.picture.depth_kind();
     options.picture.sky();
@@ -350,11 +319,7 @@ void Fogger::take_uncovered_light(Plan &plan, brume_frame call, Frame &frame) co
 
 FogReport Fogger::fog(Frame &frame, int number, const LuminanceWeights &weights, std::vector<AddedLayer> &layers)
 try {
-    std::vector<std::string> roles;
-    for (const InputLayer &input : frame.inputs)
-        if (std::find(roles.begin(), roles.end(), input.role) == roles.end())
-            roles.push_back(input.role);
-    Plan &plan = plan_for(frame.file, frame.color, weights, roles, number);
+    Plan &plan = plan_for(frame.file, frame.color, weights, roles_of(frame.inputs), number);
     const Shot shot = shot_of(frame.file, frame.color, number);
     const brume_image color = brume::image(frame.pixels.data(), frame.width, frame.height, std::uint32_t(frame.channels));
     const brume_image depth = brume::image(frame.depth.data(), frame.width, frame.height, 1);

@@ -19,7 +19,7 @@
 namespace brume::tool {
 
 struct FogOptions {
-    std::string scene, backend = "auto";
+    std::string scene, backend = "auto", plugins;
     std::string preset;  ///< quality; empty: the scene's
     double max_error = 0, budget_ms = 0;
     std::vector<std::string> set;     ///< effect.param=value
@@ -29,7 +29,7 @@ struct FogOptions {
     PictureOptions picture;
 
     void add_to(CLI::App &command);
-    void add_scene_to(CLI::App &command);  ///< scene, backend, `set` and picture alone
+    void add_scene_to(CLI::App &command);  ///< scene, backend, plugins, `set` and picture alone
 };
 
 struct PassTime {

@@ -14,6 +14,12 @@
 namespace brume::tool {
 namespace {
 
+void add_once(std::vector<std::string> &roles, const std::string &role)
+{
+    if (std::find(roles.begin(), roles.end(), role) == roles.end())
+        roles.push_back(role);
+}
+
 /// Where its pixels would not be the picture's.
 void check_display(const ImageFile &file, const ColorChoice &color, const OpenInput &input)
 {
@@ -133,9 +139,39 @@ std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs)
 {
     std::vector<std::string> roles;
     for (const OpenInput &input : inputs)
-        if (std::find(roles.begin(), roles.end(), input.choice.role) == roles.end())
-            roles.push_back(input.choice.role);
+        add_once(roles, input.choice.role);
     return roles;
+}
+
+std::vector<std::string> roles_of(const std::vector<InputLayer> &inputs)
+{
+    std::vector<std::string> roles;
+    for (const InputLayer &input : inputs)
+        add_once(roles, input.role);
+    return roles;
+}
+
+std::vector<brume_layer> input_layers(const std::vector<std::string> &roles)
+{
+    std::vector<brume_layer> layers;
+    for (const std::string &role : roles)
+        layers.push_back(brume::layer(role.c_str()));
+    return layers;
+}
+
+GivenLayers::GivenLayers(const std::vector<InputLayer> &inputs)
+{
+    images_.reserve(inputs.size());
+    for (const InputLayer &input : inputs) {
+        images_.push_back(brume::image(input.pixels->data(), input.width, input.height, std::uint32_t(input.channels)));
+        layers_.push_back(brume::layer(input.role.c_str(), &images_.back(), input.light));
+    }
+}
+
+void GivenLayers::give_to(brume_frame &frame) const
+{
+    frame.inputs = layers_.data();
+    frame.input_count = std::uint32_t(layers_.size());
 }
 
 std::string name_of(const OpenInput &input)

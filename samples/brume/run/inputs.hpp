@@ -14,6 +14,9 @@ class App;
 
 namespace brume::tool {
 
+/// Roles of which there is one layer for each light.
+inline constexpr const char *kLightGroup = "light_group", *kShadow = "shadow";
+
 /// What --input says: ROLE=LAYER, or ROLE=FILE.exr:LAYER.
 struct InputRequest {
     std::string role, file, layer;
@@ -57,6 +60,21 @@ std::vector<OpenInput> open_inputs(const ImageFile &file, const ColorChoice &col
 
 /// Each once.
 std::vector<std::string> roles_of(const std::vector<OpenInput> &inputs);
+std::vector<std::string> roles_of(const std::vector<InputLayer> &inputs);
+
+/// As parts of a brume_format. The names are kept by the caller.
+std::vector<brume_layer> input_layers(const std::vector<std::string> &roles);
+
+/// Inputs as a frame has them. The layers are kept by the caller.
+class GivenLayers {
+public:
+    explicit GivenLayers(const std::vector<InputLayer> &inputs);
+    void give_to(brume_frame &frame) const;
+
+private:
+    std::vector<brume_image> images_;
+    std::vector<brume_layer> layers_;
+};
 
 /// Its role, with the light whose it is.
 std::string name_of(const OpenInput &input);

@@ -78,6 +78,11 @@ std::string Sky::text() const
     return type == kFog ? "fog" : type == kKeep ? "keep" : fmt::format("clamp:{}", distance);
 }
 
+void add_plugins_option(CLI::App &command, std::string &plugins)
+{
+    command.add_option("--plugins", plugins, "Directory of further effects, see `brume effects`")->type_name("DIR");
+}
+
 void add_output_options(CLI::App &command, ColorRequest &spaces, std::string &output_type)
 {
     command

@@ -33,6 +33,9 @@ struct Sky {
     std::string text() const;
 };
 
+/// --plugins
+void add_plugins_option(CLI::App &command, std::string &plugins);
+
 struct ColorRequest;
 
 /// --input-space, --output-space and --output-type.

@@ -1,5 +1,7 @@
 #include "support/sdk.hpp"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "support/error.hpp"
@@ -16,7 +18,7 @@ void log_to_stderr(void *, std::uint32_t level, const char *message)
 
 }  // namespace
 
-Context create_context(const std::string &backend)
+Context create_context(const std::string &backend, const std::string &plugins)
 {
     brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
     if (backend == "cpu")
@@ -26,6 +28,13 @@ Context create_context(const std::string &backend)
     else if (backend != "auto")
         throw RequestError(fmt::format("--backend '{}': expected auto, gl or cpu", backend));
     desc.log = log_to_stderr;
+    const std::string directory = plugins.empty() ? "" : std::filesystem::absolute(plugins).string();
+    if (!plugins.empty()) {
+        // The library goes on without one; who names it wants what is in it.
+        if (std::error_code error; !std::filesystem::is_directory(directory, error))
+            throw RequestError(fmt::format("--plugins {}: no such directory", plugins));
+        desc.plugin_directory = directory.c_str();
+    }
     Context context(desc);
     check_request(context, context.status(), "--backend " + backend);
     return context;

@@ -8,8 +8,8 @@
 
 namespace brume::tool {
 
-/// `backend` is auto, gl or cpu. Throws RequestError.
-Context create_context(const std::string &backend);
+/// `backend` is auto, gl or cpu; `plugins` a directory of further effects, or empty. Throws RequestError.
+Context create_context(const std::string &backend, const std::string &plugins = "");
 
 /// Throws RequestError where the library refuses: for what comes from the command line or the scene file.
 void check_request(const Context &context, brume_status status, const std::string &what);

@@ -156,7 +156,7 @@ typedef struct brume_plugin_layer {
    gaussians         [0] data: 2 texels each, as brume_plugin_gaussian. [1] data: per tile of BRUME_TILE_SIZE squared pixels, row
                      by row: x the first and y the number of its entries in [2]. [2] data, one channel: indices of the
                      Gaussians that matter in the tile, by distance. count: of Gaussians
-   light_gaussians   which Gaussians lie between a light and a point, by the light's direction, as shaders/lib/shadow.glsl reads
+   light_gaussians   which Gaussians lie between a light and a point, by the light's direction, as brume/maths/lib/shadow.glsl reads
                      it. count: of lights
    camera_gaussians  the same image; it lists what lies between the camera and a point then, too
    lights            data: 4 texels each, as brume_plugin_light. count: of lights

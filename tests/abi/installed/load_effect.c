@@ -1,5 +1,5 @@
 /* load_effect PREFIX DIRECTORY: runs the sample effects from DIRECTORY with the library installed in PREFIX, on the CPU and, where
- * there is a context, on GL. */
+ * there is a context, on GL. load_effect PREFIX DIRECTORY NAME: loads the effect of that name. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -141,7 +141,17 @@ static int run(uint32_t backend, const char *prefix, const char *directory)
 
 int main(int argc, char **argv)
 {
-    expect(argc == 3, "two arguments");
+    if (argc == 4) {
+        brume_context_desc desc = BRUME_CONTEXT_DESC_INIT;
+        brume_context context;
+        desc.plugin_directory = argv[2];
+        desc.backend = BRUME_BACKEND_CPU;
+        check(NULL, brume_context_create(&desc, &context));
+        expect(comes_from(context, argv[3], argv[2]), "the effect is loaded");
+        brume_context_destroy(context);
+        return 0;
+    }
+    expect(argc == 3, "two or three arguments");
     expect(run(BRUME_BACKEND_CPU, argv[1], argv[2]), "the CPU backend is always there");
     run(BRUME_BACKEND_GL, argv[1], argv[2]);
     return 0;
