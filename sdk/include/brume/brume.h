@@ -550,7 +550,8 @@ typedef struct brume_format {
 BRUME_API void brume_format_init(brume_format *format, size_t size);
 
 /* Works out what the scene needs for images of this format, and allocates its images. Once warm, executing it allocates nothing while
-   lights, Gaussians and camera stand still. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders it. */
+   lights, Gaussians and camera stand still. BRUME_ERROR_NOT_FOUND where the scene names no effects and has a medium, or lights or an
+   environment that the medium scatters, and no effect was found that renders it. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
