@@ -215,6 +215,19 @@ std::string brume_host_t::wakes(const Scene &scene, const Format &format) const
     return {};
 }
 
+// Takes no memory where the plan had such values before.
+void brume_host_t::take(const SceneValues &values)
+{
+    spare_ = values;  // should it throw, the plan is as it was
+    std::swap(static_cast<SceneValues &>(scene_), spare_);
+    if (!spare_.medium)
+        return;
+    for (GaussianSet &set : spare_.medium->gaussian_sets) {
+        set.fixed.reset();
+        set.frames.reset();
+    }
+}
+
 void brume_host_t::update(const Scene &scene, const Format *format)
 {
     const Format &next = format ? *format : format_;
@@ -240,11 +253,7 @@ void brume_host_t::update(const Scene &scene, const Format *format)
     if (!difference.empty())
         throw Error(BRUME_ERROR_FORMAT, "plan: of another structure than the scene it was made for: " + difference +
                                             "; expected a new plan for it");
-    Scene kept = scene;
-    kept.effects = std::move(scene_.effects);  // with what was chosen for the quality asked
-    kept.effects_named = scene_.effects_named;
-    kept.quality = scene_.quality;
-    scene_ = std::move(kept);
+    take(scene);
     if (format)
         format_ = *format;
     content_.scene_changed();

@@ -104,6 +104,7 @@ private:
     };
 
     std::string wakes(const brume::Scene &scene, const brume::Format &format) const;
+    void take(const brume::SceneValues &values);
     void expect_shadow_maps() const;
     void choose_effects();
     void order_effects();
@@ -133,6 +134,7 @@ private:
 
     std::shared_ptr<brume::Context> context_;
     brume::Scene scene_;
+    brume::SceneValues spare_;                          // whose memory the next update takes
     std::vector<brume::EffectSettings> given_effects_;  // without what was chosen for the quality asked
     brume::Format format_;
     brume::Structure structure_;

@@ -23,7 +23,7 @@ bool is_lit(const Scene &scene)
 bool any(const Number3 &numbers)
 {
     return std::any_of(numbers.begin(), numbers.end(), [](const Number &number) {
-        return std::any_of(number.keys.begin(), number.keys.end(), [](auto &key) { return key.second != 0; });
+        return std::any_of(number.keys().begin(), number.keys().end(), [](auto &key) { return key.second != 0; });
     });
 }
 

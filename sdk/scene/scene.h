@@ -4,27 +4,17 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <brume/brume.h>
 #include <brume/brume_plugin.h>
 
 #include "gaussians/gaussian.h"
+#include "scene/number.h"
 
 namespace brume {
 
 class GaussianFrames;
-
-// A number that may change over the frames: linear between keys, constant outside them.
-struct Number {
-    std::vector<std::pair<double, double>> keys{{0.0, 0.0}};  // (frame, value), ascending frames, never empty
-
-    Number() = default;
-    Number(double value) : keys{{0.0, value}} {}
-    bool animated() const { return keys.size() > 1; }
-    double at(double frame) const;
-};
 
 using Number3 = std::array<Number, 3>;
 
@@ -123,18 +113,22 @@ struct EffectSettings {
     std::map<std::string, double> parameters;  // only those set; choices by index
 };
 
-struct Scene {
+// What frames may show otherwise than a plan was made for.
+struct SceneValues {
     double metres_per_unit = 1.0;
     std::array<double, 3> luminance{0.2126, 0.7152, 0.0722};
     std::optional<Medium> medium;
     Camera camera;
     std::vector<Light> lights;
     Environment environment;
+
+    bool animated() const;
+};
+
+struct Scene : SceneValues {
     std::vector<EffectSettings> effects;  // those that the file or a call set
     Quality quality;
     bool effects_named = false;  // the file names its effects: what the content needs is not added to them
-
-    bool animated() const;
 };
 
 // From BRUME_PRESET_DRAFT on.

@@ -1,38 +1,13 @@
 // Plans that are too large for the memory, giving memory back, and frames that take none.
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <string_view>
 
+#include "allocations.h"
 #include "client.h"
 
 using namespace client;
-
-namespace {
-thread_local size_t largest_allocation = size_t(-1);
-std::atomic<size_t> allocations = 0;  // on all threads
-}  // namespace
-
-// The library's, too.
-void *operator new(size_t size)
-{
-    ++allocations;
-    if (size <= largest_allocation)
-        if (void *memory = std::malloc(size ? size : 1))
-            return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void *memory) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void *memory, size_t) noexcept
-{
-    std::free(memory);
-}
 
 namespace {
 
@@ -69,14 +44,14 @@ TEST(PlansOfAnotherSize, TakeTheMemoryThatTheLastOneLeft)
     make_plan(context, scene, ray_format(320, 256));
     brume_context_info before = BRUME_CONTEXT_INFO_INIT, after = BRUME_CONTEXT_INFO_INIT;
     ASSERT_EQ(brume_context_get_info(context.get(), &before), BRUME_OK);
-    largest_allocation = size_t(320) * 256;  // a picture of one channel takes four times as much
+    allocations::largest_granted = size_t(320) * 256;  // a picture of one channel takes four times as much
     for (const auto &[width, height] : {std::pair(300, 240), std::pair(270, 216), std::pair(240, 192)}) {
         const brume_format format = ray_format(width, height);
         brume_plan plan = nullptr;
         EXPECT_EQ(brume_plan_create(scene.get(), &format, &plan), BRUME_OK) << width << ": " << message(context.get());
         brume_plan_destroy(plan);
     }
-    largest_allocation = size_t(-1);
+    allocations::largest_granted = size_t(-1);
     ASSERT_EQ(brume_context_get_info(context.get(), &after), BRUME_OK);
     EXPECT_LE(after.host_bytes, before.host_bytes);
 }
@@ -87,9 +62,9 @@ TEST(TooLargePlans, SayWhatWasWantedAndHoldNothing)
     Scene scene = make_scene(context, foggy);
     const brume_format format = ray_format(2048, 1024);
     brume_plan plan = nullptr;
-    largest_allocation = size_t(20) << 20;
+    allocations::largest_granted = size_t(20) << 20;
     const brume_status status = brume_plan_create(scene.get(), &format, &plan);
-    largest_allocation = size_t(-1);
+    allocations::largest_granted = size_t(-1);
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, " x 4 floats, ");
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, "MB: out of memory");
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, "image ");
@@ -139,10 +114,10 @@ protected:
         frame.input_count = uint32_t(inputs.size());
         for (int i = 0; i < 12; ++i)
             ASSERT_EQ(brume_plan_execute(plan.get(), &frame), BRUME_OK);
-        const size_t before = allocations;
+        const size_t before = allocations::count;
         for (int i = 0; i < 10; ++i)
             brume_plan_execute(plan.get(), &frame);
-        EXPECT_EQ(allocations - before, 0u) << "in ten frames";
+        EXPECT_EQ(allocations::count - before, 0u) << "in ten frames";
     }
 
     double milliseconds(brume_plan plan, const Picture &color, const Picture &depth, Picture &output, int frames)

@@ -549,9 +549,9 @@ typedef struct brume_format {
   {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u, NULL, NULL}
 BRUME_API void brume_format_init(brume_format *format, size_t size);
 
-/* Works out what the scene needs for images of this format, and allocates its images. Once warm, executing it allocates nothing while
-   lights, Gaussians and camera stand still. BRUME_ERROR_NOT_FOUND where the scene names no effects and has a medium, or lights or an
-   environment that the medium scatters, and no effect was found that renders it. */
+/* Works out what the scene needs for images of this format, and allocates its images. Once warm, executing it allocates nothing, unless
+   there are Gaussians and they, lights or the camera move. BRUME_ERROR_NOT_FOUND where the scene names no effects and has a medium, or
+   lights or an environment that the medium scatters, and no effect was found that renders it. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
@@ -561,7 +561,11 @@ BRUME_API void brume_plan_destroy(brume_plan plan);
    its values are zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian
    densities, whether there are lights and such with a shadow map, how many coefficients the environment has; the size, the display window's presence
    and the layers of the format. Where that differs the call fails with BRUME_ERROR_FORMAT, names what differs, and leaves the plan as
-   it was. Cheap: it copies the scene. Predictions stay those of the scene that was planned. */
+   it was. Predictions stay those of the scene that was planned.
+   Cost: a copy of the scene's values, by their number, into memory that the plan keeps: once warm, moving lights and cameras by
+   brume_scene_set_lights, _set_camera, this and the frame allocate nothing. Gaussians are not copied, but brume_scene_set_medium
+   makes them anew. Where the plan dropped an effect, the effects plan once more to see that it is dropped still: about
+   what brume_plan_create costs without its images. */
 BRUME_API brume_status brume_plan_update(brume_plan plan, brume_scene scene, const brume_format *format);
 
 typedef struct brume_plan_info {
