@@ -200,10 +200,11 @@ void brume_host_t::warn_on_software_gl(const std::string &message)
     context_->log(BRUME_LOG_WARNING, message);
 }
 
-// What this plan has dropped and a plan of that scene would run; empty if nothing.
+// What this plan has dropped and a plan of that scene would run; empty if nothing. Of the scene and the format at hand that
+// is nothing.
 std::string brume_host_t::wakes(const Scene &scene, const Format &format) const
 {
-    if (running_.size() == effects_.size())
+    if (running_.size() == effects_.size() || (drops_alike(scene, scene_) && drops_alike(format, format_)))
         return {};
     Scene planned = scene;
     planned.effects = scene_.effects;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "scene/fields.h"
 #include "scene/frame_values.h"
@@ -176,6 +177,16 @@ bool pose_matters(const Scene &scene)
     };
     const Medium &medium = *scene.medium;
     return std::any_of(medium.density.begin(), medium.density.end(), varies) || has_gaussians(scene);
+}
+
+bool drops_alike(const SceneValues &a, const SceneValues &b)
+{
+    const auto but_gaussians = [](const Medium &m) {
+        return std::tie(m.scattering, m.absorption, m.emission, m.g, m.visibility, m.droplet_diameter, m.density, m.noise);
+    };
+    return a.metres_per_unit == b.metres_per_unit && a.luminance == b.luminance &&
+           a.medium.has_value() == b.medium.has_value() &&
+           (!a.medium || but_gaussians(*a.medium) == but_gaussians(*b.medium));
 }
 
 Scene with_peak_medium(Scene scene)

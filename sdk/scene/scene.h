@@ -24,6 +24,8 @@ struct DensityTerm {
     Number falloff = 0.0;  // [1/m]
     Number3 direction{Number(0.0), Number(1.0), Number(0.0)};
     Number3 origin{};  // scene units
+
+    bool operator==(const DensityTerm &) const = default;
 };
 
 // A Gaussian density term of which some number may be keyed.
@@ -47,6 +49,8 @@ struct Noise {
     Number scale = 1.0;     // scene units
     Number3 offset{};       // scene units
     uint32_t seed = 0;
+
+    bool operator==(const Noise &) const = default;
 };
 
 struct Medium {
@@ -150,6 +154,10 @@ bool has_gaussians(const Scene &scene);
 
 // Whether some are known only with the frame.
 bool reads_gaussians_by_frame(const Scene &scene);
+
+// Whether effects that dropped what they have to do with one scene have no reason to do it with the other, of the same
+// structure: what they may go by (brume_effect.plan) is the same.
+bool drops_alike(const SceneValues &a, const SceneValues &b);
 
 // The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
 Scene with_peak_medium(Scene scene);

@@ -97,6 +97,14 @@ TEST(MovingLights, TakeLittleTime)
     EXPECT_LT(milliseconds_of(moving, 100), 1.0);
 }
 
+// What was dropped for the medium is not planned again for other lights.
+TEST(MovingLights, ThatAreDroppedCostNoMore)
+{
+    Moving moving(R"({"absorption": 0.03})", R"("airlight": {})", 1);
+    EXPECT_EQ(allocations_of(moving, 10), 0u) << "in ten frames";
+    EXPECT_LT(milliseconds_of(moving, 100), 1.0);
+}
+
 // A medium is made anew by each call, but takes no memory for each Gaussian.
 TEST(MovingGaussians, AllocateAFewTimes)
 {
