@@ -177,4 +177,38 @@ TEST_P(Frames, ThatDoNothingCostNothing)
     }
 }
 
+// Lights that cannot be seen are nothing to the filter; each that can is looked for by each pixel. By turns, so that what
+// else the machine does is in both.
+TEST_P(Frames, LightsWithoutARadiusCostTheFilterNothing)
+{
+    constexpr int side = 96;
+    auto plan_with = [&](int lights) {
+        std::string text = lit_scene(lights, 0, R"("scattering": 0.03)");
+        for (size_t at = 0; (at = text.find("\"radius\": 0.1", at)) != std::string::npos;)
+            text.replace(at, 13, "\"radius\": 0.0");
+        text.back() = ',';
+        Scene scene = make_scene(
+            context, text + R"("effects": {"multiscatter": {}, "airlight": {"tier": "sun", "resolution": "quarter"}}})");
+        return make_plan(context, scene, ray_format(side, side));
+    };
+    Picture color(side, side), depth(side, side, {.channels = 1}), output(side, side);
+    paint(color);
+    paint_depth(depth);
+    auto filter_ms = [&](brume_plan plan) {
+        EXPECT_EQ(execute(plan, color, depth, output), BRUME_OK) << message(context.get());
+        double ms = 0;
+        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+        for (uint32_t i = 0; brume_plan_get_entry(plan, i, &entry) == BRUME_OK; ++i)
+            ms += entry.runs && std::string_view(entry.effect) == "multiscatter" ? entry.measured_ms : 0;
+        return ms;
+    };
+    const Plan lit = plan_with(128), unlit = plan_with(0);
+    double with = 1e9, without = 1e9;
+    for (int i = 0; i < 20; ++i) {
+        with = std::min(with, filter_ms(lit.get()));
+        without = std::min(without, filter_ms(unlit.get()));
+    }
+    EXPECT_LT(with, 1.5 * without);
+}
+
 }  // namespace
