@@ -59,6 +59,9 @@ public:
     // Exceptions come back to the caller.
     virtual void invoke(const std::function<void()> &work) = 0;
 
+    // Bytes of images that it could hold at most; UINT64_MAX where only trying tells.
+    virtual uint64_t memory_limit() const { return UINT64_MAX; }
+
     // Largest width and height of an image.
     virtual int32_t largest_size() const = 0;
 

@@ -126,9 +126,10 @@ void brume_host_t::plan_effects()
     bind_passes();
     content_.scene_changed();
 
-    for (int i = 0; i < std::min<int>(int(running_.size()) - 1, 2) && !rehearsal_; ++i) {
-        between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
-        image_bytes_ += uint64_t(format_.width) * uint64_t(format_.height) * 16;
+    for (int i = 0; i < std::min<int>(int(running_.size()) - 1, 2); ++i) {
+        memory_.add("between effects", format_.width, format_.height, 4);
+        if (!rehearsal_)
+            between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
     }
     for (auto &entry : entries_)
         if (entry.runs)

@@ -9,6 +9,7 @@
 #include "scene/format.h"
 #include "plan/host_products.h"
 #include "plan/layers.h"
+#include "plan/plan_memory.h"
 #include "effects/offer.h"
 #include "plan/products.h"
 #include "scene/scene.h"
@@ -71,7 +72,8 @@ public:
     bool does_nothing() const { return running_.empty(); }
     uint32_t camera_needs() const { return camera_needs_; }
     const std::string &camera_reason() const { return camera_reason_; }
-    uint64_t image_bytes() const { return image_bytes_; }
+    // In a rehearsal, what the plan's would be.
+    const brume::ImageMemory &image_memory() const { return memory_; }
     // Of the last frame's half outputs; not_counted before one.
     int64_t clamped_values() const { return clamped_values_; }
     // Of the last frame per entry; empty before one.
@@ -148,7 +150,7 @@ private:
     std::unique_ptr<brume::FrameTimer> timer_;
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;
-    uint64_t image_bytes_ = 0;
+    brume::ImageMemory memory_;
     brume::Content content_;
     brume::FrameLayers layers_;
     brume::Products products_;

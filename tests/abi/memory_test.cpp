@@ -1,4 +1,6 @@
 // Plans that are too large for the memory, giving memory back, and frames that take none.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -68,9 +70,31 @@ TEST(TooLargePlans, SayWhatWasWantedAndHoldNothing)
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, " x 4 floats, ");
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, "MB: out of memory");
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, "image ");
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, "; the plan takes ");
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, ", the largest radiance: 2048 x 1024 x 4 floats, 33.6 MB");
     brume_context_info info = BRUME_CONTEXT_INFO_INIT;
     ASSERT_EQ(brume_context_get_info(context.get(), &info), BRUME_OK);
     EXPECT_EQ(info.host_bytes, 0u);
+}
+
+// Systems promise more memory than they have, and end who takes it.
+TEST(TooLargePlans, AreRefusedBeforeTheyTakeMemory)
+{
+    Context context = make_context(BRUME_BACKEND_CPU);
+    Scene scene = make_scene(context, foggy);
+    const brume_format format = ray_format(32768, 16384);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+    rlimit less = before;
+    less.rlim_cur = rlim_t(30) << 30;
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &less), 0);
+    allocations::largest_granted = size_t(20) << 20;
+    brume_plan plan = nullptr;
+    const brume_status status = brume_plan_create(scene.get(), &format, &plan);
+    allocations::largest_granted = size_t(-1);
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, "format: 32768 x 16384 takes ");
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, " x 4 floats, 8.6 GB; expected at most the ");
 }
 
 // Lights and Gaussians that stand still, seen by both effects.

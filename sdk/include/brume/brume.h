@@ -551,7 +551,8 @@ BRUME_API void brume_format_init(brume_format *format, size_t size);
 
 /* Works out what the scene needs for images of this format, and allocates its images. Once warm, executing it allocates nothing, unless
    there are Gaussians and they, lights or the camera move. BRUME_ERROR_NOT_FOUND where the scene names no effects and has a medium, or
-   lights or an environment that the medium scatters, and no effect was found that renders it. */
+   lights or an environment that the medium scatters, and no effect was found that renders it. BRUME_ERROR_MEMORY says what all of the
+   plan's images take and which is the largest; on the CPU before any is made, where that is more than the process may use. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
