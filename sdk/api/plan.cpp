@@ -241,7 +241,7 @@ brume_status brume_plan_get_info(brume_plan handle, brume_plan_info *info)
             predicted += entry.predicted_ms;
         write_struct(info,
                      {0, uint32_t(plan.entries().size()), plan.does_nothing() ? 1u : 0u, plan.camera_needs(),
-                      plan.camera_reason().c_str(), plan.image_memory().bytes(), predicted, plan.predicted_error(),
+                      plan.camera_reason().c_str(), plan.image_bytes(), predicted, plan.predicted_error(),
                       handle->quality.c_str(), plan.clamped_values()},
                      "brume_plan_info");
     });

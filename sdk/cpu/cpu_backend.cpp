@@ -24,7 +24,6 @@ struct CpuImage : Image {
     float *data = nullptr;
     int64_t row_stride = 0;  // in floats
     std::vector<float> owned;
-    uint64_t bytes = 0;  // owned
     uint64_t idle_since = 0;
 };
 

@@ -17,6 +17,7 @@ struct brume_plugin_image_t {
     int32_t width = 0;
     int32_t height = 0;
     int32_t channels = 0;
+    uint64_t bytes = 0;  // of its own memory; none of a caller's
 };
 
 // A pass of a plan, as one backend runs it.

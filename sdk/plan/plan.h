@@ -74,6 +74,8 @@ public:
     const std::string &camera_reason() const { return camera_reason_; }
     // In a rehearsal, what the plan's would be.
     const brume::ImageMemory &image_memory() const { return memory_; }
+    // Those, and since the first frame what it uploads and what callers' images are converted to.
+    uint64_t image_bytes() const { return memory_.bytes() + data_bytes_ + frame_bytes_; }
     // Of the last frame's half outputs; not_counted before one.
     int64_t clamped_values() const { return clamped_values_; }
     // Of the last frame per entry; empty before one.
@@ -151,6 +153,7 @@ private:
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;
     brume::ImageMemory memory_;
+    uint64_t data_bytes_ = 0, frame_bytes_ = 0;
     brume::Content content_;
     brume::FrameLayers layers_;
     brume::Products products_;

@@ -159,7 +159,9 @@ brume_plugin_image brume_host_t::upload(uint32_t slot, int32_t channels, const f
     // Powers of two, so that the pool serves the next frame's slightly longer list with the same image.
     const uint64_t rows = std::min<uint64_t>(std::bit_ceil(std::max<uint64_t>(1, (texels + width - 1) / width)),
                                              uint64_t(context_->backend->largest_size()));
+    const uint64_t samples = data.values.size();
     data.values.assign(rows * width * uint64_t(channels), 0.0f);
+    data_bytes_ += (data.values.size() - samples) * sizeof(float);
     std::copy_n(values, texels * uint64_t(channels), data.values.begin());
     brume_image image = BRUME_IMAGE_INIT;
     image.channels = uint32_t(channels);

@@ -576,7 +576,8 @@ typedef struct brume_plan_info {
   uint32_t does_nothing;     /* 1: every pass was dropped; execute copies, bit for bit */
   uint32_t camera_needs;     /* BRUME_CAMERA_... flags that executing needs */
   const char *camera_reason; /* what needs it and why; "" */
-  uint64_t image_bytes;      /* memory of the plan's own images */
+  uint64_t image_bytes;      /* memory of the plan's own images; from the first frame on with the data of lights and Gaussians
+                                and with what the last frame's images were converted to */
   double predicted_ms;       /* per frame, from the passes' operations and bytes at the context's rates: nominal ones, or its
                                 own after brume_context_calibrate */
   double predicted_error;    /* that 95 of 100 frames keep below, as brume_quality.max_error counts; < 0: unknown */
