@@ -25,6 +25,7 @@ struct brume_context_t {
 struct brume_scene_t {
     std::shared_ptr<brume::Context> context;
     brume::Scene scene;
+    std::vector<brume::Light> read{};  // what the next lights are read into, so that moving them takes no memory
 };
 
 struct brume_media_t {
@@ -87,8 +88,7 @@ template <class Function> brume_status barrier(const Context *context, Function 
 brume_camera read_camera(const brume_camera *given, const char *name);
 Format read_format(const brume_format *given);
 brume_image read_image(const brume_image *given, const char *name);
-std::vector<Gaussian> read_gaussians(const brume_gaussian *given, uint32_t count, const std::string &name,
-                                     const std::string &count_name);
+std::vector<Gaussian> read_gaussians(const brume_gaussian *given, uint32_t count, const char *name, const char *count_name);
 
 inline void expect(bool condition, const char *message)
 {

@@ -14,13 +14,13 @@ using namespace brume::api;
 
 namespace {
 
-Gaussian read_gaussian(const brume_gaussian *given, const std::string &name)
+Gaussian read_gaussian(const brume_gaussian *given, const ValueName &name)
 {
     brume_gaussian read = BRUME_GAUSSIAN_INIT;
-    read = read_struct(given, read, name.c_str(), &brume_gaussian::center, &brume_gaussian::scale,
-                       &brume_gaussian::amplitude, &brume_gaussian::color, &brume_gaussian::reserved);
+    read = read_struct(given, read, name, &brume_gaussian::center, &brume_gaussian::scale, &brume_gaussian::amplitude,
+                       &brume_gaussian::color, &brume_gaussian::reserved);
     if (read.reserved)
-        expect(false, name + ".reserved", read.reserved, "0");
+        expect(false, name.of(".reserved").text(), read.reserved, "0");
     Gaussian gaussian;
     std::copy_n(read.center, 3, gaussian.center.begin());
     gaussian.scale = read.scale;
@@ -32,8 +32,8 @@ Gaussian read_gaussian(const brume_gaussian *given, const std::string &name)
 
 }  // namespace
 
-std::vector<Gaussian> api::read_gaussians(const brume_gaussian *given, uint32_t count, const std::string &name,
-                                          const std::string &count_name)
+std::vector<Gaussian> api::read_gaussians(const brume_gaussian *given, uint32_t count, const char *name,
+                                          const char *count_name)
 {
     if (!given && count > 0)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: NULL with a {} above 0", name, count_name));
@@ -43,7 +43,7 @@ std::vector<Gaussian> api::read_gaussians(const brume_gaussian *given, uint32_t 
     std::vector<Gaussian> gaussians;
     gaussians.reserve(count);
     for (size_t i = 0; i < count; ++i)
-        gaussians.push_back(read_gaussian(element(given, i), name + "[" + std::to_string(i) + "]"));
+        gaussians.push_back(read_gaussian(element(given, i), {name, int64_t(i)}));
     return gaussians;
 }
 
@@ -63,10 +63,10 @@ Number3 numbers(const double (&values)[3])
 
 DensityTerm read_term(const brume_density_term *given, size_t index)
 {
-    std::string name = "brume_medium.terms[" + std::to_string(index) + "]";
     brume_density_term term = BRUME_DENSITY_TERM_INIT;
-    term = read_struct(given, term, name.c_str(), &brume_density_term::type, &brume_density_term::value,
-                       &brume_density_term::falloff, &brume_density_term::direction, &brume_density_term::origin);
+    term = read_struct(given, term, {"brume_medium.terms", int64_t(index)}, &brume_density_term::type,
+                       &brume_density_term::value, &brume_density_term::falloff, &brume_density_term::direction,
+                       &brume_density_term::origin);
     return {term.type, term.value, term.falloff, numbers(term.direction), numbers(term.origin)};
 }
 
@@ -81,16 +81,16 @@ std::vector<GaussianSet> gaussians_of(const brume_medium &medium)
     return {set};
 }
 
-Light read_light(const brume_light *given, const std::string &name)
+Light read_light(const brume_light *given, const ValueName &name)
 {
     brume_light read = BRUME_LIGHT_INIT;
-    read = read_struct(given, read, name.c_str(), &brume_light::type, &brume_light::position, &brume_light::direction,
+    read = read_struct(given, read, name, &brume_light::type, &brume_light::position, &brume_light::direction,
                        &brume_light::intensity, &brume_light::radius, &brume_light::angle, &brume_light::penumbra,
                        &brume_light::distance, &brume_light::shadow_kind, &brume_light::shadow_depth,
                        &brume_light::shadow_extent, &brume_light::shadow_to_world, &brume_light::surfaces,
                        &brume_light::reserved, &brume_light::shadow_range);
     if (read.reserved)
-        expect(false, name + ".reserved", read.reserved, "0");
+        expect(false, name.of(".reserved").text(), read.reserved, "0");
     Light light{
         read.type,     numbers(read.position), numbers(read.direction), numbers(read.intensity), read.radius, read.angle,
         read.penumbra, read.distance};
@@ -190,10 +190,10 @@ brume_status brume_scene_set_lights(brume_scene handle, const brume_light *given
         expect(given || count == 0, "lights: NULL with a count above 0");
         if (count > BRUME_MAX_LIGHTS)
             throw Error(BRUME_ERROR_ARGUMENT, fmt::format("count: {}; expected at most {} lights", count, BRUME_MAX_LIGHTS));
-        std::vector<Light> lights;
+        handle->read.resize(count);
         for (size_t i = 0; i < count; ++i)
-            lights.push_back(read_light(element(given, i), "lights[" + std::to_string(i) + "]"));
-        scene.lights = std::move(lights);
+            handle->read[i] = read_light(element(given, i), {"lights", int64_t(i)});
+        scene.lights.swap(handle->read);
     });
 }
 

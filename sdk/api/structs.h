@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/value_name.h"
 
 namespace brume::api {
 
@@ -11,19 +12,19 @@ namespace brume::api {
 constexpr uint32_t largest_struct = 1024;
 
 // The size that the caller gave; refuses one that cannot be, and bytes past the end known here that say something.
-template <class Struct> uint32_t checked_size(const Struct *given, const char *name)
+template <class Struct> uint32_t checked_size(const Struct *given, const ValueName &name)
 {
     if (!given)
-        throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + ": NULL");
+        throw Error(BRUME_ERROR_ARGUMENT, name.text() + ": NULL");
     uint32_t size;  // by bytes: an array of structs of an odd size leaves its elements unaligned
     std::memcpy(&size, given, sizeof size);
     if (size < sizeof(uint32_t) || size > largest_struct)
-        throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + ".struct_size: " + std::to_string(size) +
-                                              "; expected sizeof, as its INIT macro sets it");
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    name.text() + ".struct_size: " + std::to_string(size) + "; expected sizeof, as its INIT macro sets it");
     auto bytes = reinterpret_cast<const unsigned char *>(given);
     for (size_t i = sizeof(Struct); i < size; ++i)
         if (bytes[i] != 0)
-            throw Error(BRUME_ERROR_ARGUMENT, std::string(name) + ".struct_size: " + std::to_string(size) +
+            throw Error(BRUME_ERROR_ARGUMENT, name.text() + ".struct_size: " + std::to_string(size) +
                                                   " with nonzero bytes past the " + std::to_string(sizeof(Struct)) +
                                                   " this library knows");
     return size;
@@ -31,7 +32,7 @@ template <class Struct> uint32_t checked_size(const Struct *given, const char *n
 
 // Size-tagged structs: defaults first, then every field that lies wholly inside the size the caller gave.
 template <class Struct, class... Fields>
-Struct read_struct(const Struct *given, const Struct &defaults, const char *name, Fields Struct::*...fields)
+Struct read_struct(const Struct *given, const Struct &defaults, const ValueName &name, Fields Struct::*...fields)
 {
     const uint32_t size = checked_size(given, name);
     auto bytes = reinterpret_cast<const unsigned char *>(given);
@@ -54,7 +55,7 @@ template <class Struct> const Struct *element(const Struct *first, size_t i)
 }
 
 // Fills as much of the caller's struct as it has room for.
-template <class Struct> void write_struct(Struct *out, Struct value, const char *name)
+template <class Struct> void write_struct(Struct *out, Struct value, const ValueName &name)
 {
     const uint32_t size = checked_size(out, name);
     value.struct_size = size;

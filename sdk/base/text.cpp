@@ -60,11 +60,16 @@ std::string in_quotes(std::string_view text)
     return out + '"';
 }
 
-std::string image_text(int32_t width, int32_t height, int32_t channels, const char *sample, uint64_t bytes)
+std::string bytes_text(uint64_t bytes)
 {
     const bool large = bytes >= 100'000'000;
-    return fmt::format("{} x {} x {} {}{}, {:.1f} {}", width, height, channels, sample, channels == 1 ? "" : "s",
-                       double(bytes) * (large ? 1e-9 : 1e-6), large ? "GB" : "MB");
+    return fmt::format("{:.1f} {}", double(bytes) * (large ? 1e-9 : 1e-6), large ? "GB" : "MB");
+}
+
+std::string image_text(int32_t width, int32_t height, int32_t channels, const char *sample, uint64_t bytes)
+{
+    return fmt::format("{} x {} x {} {}{}, {}", width, height, channels, sample, channels == 1 ? "" : "s",
+                       bytes_text(bytes));
 }
 
 }  // namespace brume

@@ -10,6 +10,7 @@
 #include "cpu/threads.h"
 #include "plan/backend.h"
 #include "base/error.h"
+#include "base/memory_limit.h"
 #include "plan/idle_images.h"
 #include "base/pixels.h"
 #include "base/text.h"
@@ -21,7 +22,6 @@ struct CpuImage : Image {
     float *data = nullptr;
     int64_t row_stride = 0;  // in floats
     std::vector<float> owned;
-    uint64_t bytes = 0;  // owned
     uint64_t idle_since = 0;
 };
 
@@ -184,6 +184,7 @@ public:
     uint64_t host_bytes() const override { return pool_->bytes(); }
     uint64_t device_bytes() const override { return 0; }
     void invoke(const std::function<void()> &work) override { work(); }
+    uint64_t memory_limit() const override { return brume::memory_limit(); }
     int32_t largest_size() const override { return 65536; }
 
     std::shared_ptr<Image> create_image(int32_t width, int32_t height, int32_t channels, uint32_t) override

@@ -56,11 +56,11 @@ void EffectRegistry::load(const std::vector<std::string> &directories, const Log
     }
 }
 
-void EffectRegistry::expect_one_for_media() const
+void EffectRegistry::expect_one(uint32_t wanted, const char *part, const char *renders) const
 {
     std::string refused;
     for (const Effect &effect : effects_) {
-        if (effect.refusal.empty() && effect.wanted == BRUME_WANTED_WITH_MEDIUM)
+        if (effect.refusal.empty() && effect.wanted == wanted)
             return;
         if (!effect.refusal.empty())
             refused += fmt::format("; {} was refused: {}", effect.file, effect.refusal);
@@ -69,7 +69,7 @@ void EffectRegistry::expect_one_for_media() const
     for (const std::string &directory : directories_)
         searched +=
             (searched.empty() ? "" : ", ") + (directory.empty() ? "lib/brume/ of a library of unknown path" : directory);
-    throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("medium: no effect that renders media was found; searched {}{}",
+    throw Error(BRUME_ERROR_NOT_FOUND, fmt::format("{}: no effect that renders {} was found; searched {}{}", part, renders,
                                                    searched.empty() ? "nowhere" : searched, refused));
 }
 

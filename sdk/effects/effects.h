@@ -50,8 +50,9 @@ public:
     const std::vector<Effect> &all() const { return effects_; }
     // Throws Error(BRUME_ERROR_NOT_FOUND) naming the nearest effect, or the refusal of the plugin of that name.
     const Effect &find(const std::string &name) const;
-    // Throws Error(BRUME_ERROR_NOT_FOUND) with the directories searched and every refusal, if none renders media.
-    void expect_one_for_media() const;
+    // Throws Error(BRUME_ERROR_NOT_FOUND) with the directories searched and every refusal, if none is wanted so
+    // (BRUME_WANTED_...). part: of the scene, which wants it; renders: what it would.
+    void expect_one(uint32_t wanted, const char *part, const char *renders) const;
 
 private:
     std::vector<Effect> effects_;

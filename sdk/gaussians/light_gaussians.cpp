@@ -203,7 +203,8 @@ void LightGaussians::add_across(const brume_plugin_scene &scene, uint32_t l, uin
 // Appends the entries, cell by cell, and writes where each cell's are.
 bool LightGaussians::sort_entries(uint32_t first_cell, uint32_t cell_count)
 {
-    std::vector<uint32_t> counts(cell_count, 0);
+    std::vector<uint32_t> &counts = counts_;
+    counts.assign(cell_count, 0);
     for (const Entry &entry : entries_)
         ++counts[entry.cell - first_cell];
     size_t end = texels.size() / 4;

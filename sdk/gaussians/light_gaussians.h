@@ -42,6 +42,7 @@ private:
     size_t first_gaussian_ = 0;  // pairs of texels
     std::vector<Sphere> spheres_;
     std::vector<Entry> entries_;
+    std::vector<uint32_t> counts_;
     size_t lights_end_ = 0;  // of texels, before the camera's entries
 };
 

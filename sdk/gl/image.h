@@ -14,7 +14,6 @@ namespace brume::gl {
 struct GlImage : Image {
     GLuint texture = 0;
     GLenum format = 0;  // sized internal format
-    uint64_t bytes = 0;
     uint64_t idle_since = 0;
     std::shared_ptr<Disposal> disposal;  // none: the host's
 

@@ -17,6 +17,7 @@ struct brume_plugin_image_t {
     int32_t width = 0;
     int32_t height = 0;
     int32_t channels = 0;
+    uint64_t bytes = 0;  // of its own memory; none of a caller's
 };
 
 // A pass of a plan, as one backend runs it.
@@ -58,6 +59,9 @@ public:
     // Runs `work` where this backend's calls may be made (its GL thread, or here under the state guard) and waits for it.
     // Exceptions come back to the caller.
     virtual void invoke(const std::function<void()> &work) = 0;
+
+    // Bytes of images that it could hold at most; UINT64_MAX where only trying tells.
+    virtual uint64_t memory_limit() const { return UINT64_MAX; }
 
     // Largest width and height of an image.
     virtual int32_t largest_size() const = 0;

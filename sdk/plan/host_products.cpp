@@ -145,7 +145,8 @@ void HostProducts::upload_light_gaussians(brume_host_t &host, const brume_plugin
 
 void HostProducts::upload_lights(brume_host_t &host, const brume_plugin_scene &scene)
 {
-    std::vector<float> texels(size_t(scene.light_count) * 16);
+    std::vector<float> &texels = texels_;
+    texels.resize(size_t(scene.light_count) * 16);
     for (uint32_t i = 0; i < scene.light_count; ++i)
         std::copy_n(scene.lights[i].position, 16, &texels[16 * i]);
     const brume_plugin_image image =

@@ -51,7 +51,7 @@ private:
     GaussianTiles lists_;
     LightGaussians directions_;
     ShadowMaps shadow_maps_;
-    std::vector<float> spheres_;
+    std::vector<float> texels_, spheres_;  // kept from frame to frame, as the others
 
     // What was uploaded.
     bool uploaded_ = false;

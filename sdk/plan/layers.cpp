@@ -206,6 +206,14 @@ int64_t FrameLayers::finish(const brume_frame &frame, Backend &backend)
     return clamped;
 }
 
+uint64_t FrameLayers::bytes() const
+{
+    uint64_t sum = 0;
+    for (const auto &image : held_)
+        sum += image->bytes;
+    return sum;
+}
+
 void FrameLayers::release()
 {
     for (Images &images : images_) {

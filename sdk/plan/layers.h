@@ -43,6 +43,8 @@ public:
     // Brings the outputs to the caller; returns as Backend::finish_output() does.
     int64_t finish(const brume_frame &frame, Backend &backend);
     void release();
+    // Of what the frame's layers were converted to.
+    uint64_t bytes() const;
 
     // In the order of an effect's table, where `of` holds the indices that places() gave.
     void see(const std::vector<int> &places, std::vector<brume_plugin_layer> &out) const;

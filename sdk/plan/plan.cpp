@@ -126,9 +126,10 @@ void brume_host_t::plan_effects()
     bind_passes();
     content_.scene_changed();
 
-    for (int i = 0; i < std::min<int>(int(running_.size()) - 1, 2) && !rehearsal_; ++i) {
-        between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
-        image_bytes_ += uint64_t(format_.width) * uint64_t(format_.height) * 16;
+    for (int i = 0; i < std::min<int>(int(running_.size()) - 1, 2); ++i) {
+        memory_.add("between effects", format_.width, format_.height, 4);
+        if (!rehearsal_)
+            between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
     }
     for (auto &entry : entries_)
         if (entry.runs)
@@ -200,10 +201,11 @@ void brume_host_t::warn_on_software_gl(const std::string &message)
     context_->log(BRUME_LOG_WARNING, message);
 }
 
-// What this plan has dropped and a plan of that scene would run; empty if nothing.
+// What this plan has dropped and a plan of that scene would run; empty if nothing. Of the scene and the format at hand that
+// is nothing.
 std::string brume_host_t::wakes(const Scene &scene, const Format &format) const
 {
-    if (running_.size() == effects_.size())
+    if (running_.size() == effects_.size() || (drops_alike(scene, scene_) && drops_alike(format, format_)))
         return {};
     Scene planned = scene;
     planned.effects = scene_.effects;
@@ -213,6 +215,19 @@ std::string brume_host_t::wakes(const Scene &scene, const Format &format) const
         if (rehearsal.effects_[i].runs && !effects_[i].runs)
             return effects_[i].effect->name + ": dropped when planned, it would run now";
     return {};
+}
+
+// Takes no memory where the plan had such values before.
+void brume_host_t::take(const SceneValues &values)
+{
+    spare_ = values;  // should it throw, the plan is as it was
+    std::swap(static_cast<SceneValues &>(scene_), spare_);
+    if (!spare_.medium)
+        return;
+    for (GaussianSet &set : spare_.medium->gaussian_sets) {
+        set.fixed.reset();
+        set.frames.reset();
+    }
 }
 
 void brume_host_t::update(const Scene &scene, const Format *format)
@@ -240,11 +255,7 @@ void brume_host_t::update(const Scene &scene, const Format *format)
     if (!difference.empty())
         throw Error(BRUME_ERROR_FORMAT, "plan: of another structure than the scene it was made for: " + difference +
                                             "; expected a new plan for it");
-    Scene kept = scene;
-    kept.effects = std::move(scene_.effects);  // with what was chosen for the quality asked
-    kept.effects_named = scene_.effects_named;
-    kept.quality = scene_.quality;
-    scene_ = std::move(kept);
+    take(scene);
     if (format)
         format_ = *format;
     content_.scene_changed();

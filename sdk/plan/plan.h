@@ -9,6 +9,7 @@
 #include "scene/format.h"
 #include "plan/host_products.h"
 #include "plan/layers.h"
+#include "plan/plan_memory.h"
 #include "effects/offer.h"
 #include "plan/products.h"
 #include "scene/scene.h"
@@ -71,7 +72,10 @@ public:
     bool does_nothing() const { return running_.empty(); }
     uint32_t camera_needs() const { return camera_needs_; }
     const std::string &camera_reason() const { return camera_reason_; }
-    uint64_t image_bytes() const { return image_bytes_; }
+    // In a rehearsal, what the plan's would be.
+    const brume::ImageMemory &image_memory() const { return memory_; }
+    // Those, and since the first frame what it uploads and what callers' images are converted to.
+    uint64_t image_bytes() const { return memory_.bytes() + data_bytes_ + frame_bytes_; }
     // Of the last frame's half outputs; not_counted before one.
     int64_t clamped_values() const { return clamped_values_; }
     // Of the last frame per entry; empty before one.
@@ -104,6 +108,7 @@ private:
     };
 
     std::string wakes(const brume::Scene &scene, const brume::Format &format) const;
+    void take(const brume::SceneValues &values);
     void expect_shadow_maps() const;
     void choose_effects();
     void order_effects();
@@ -133,6 +138,7 @@ private:
 
     std::shared_ptr<brume::Context> context_;
     brume::Scene scene_;
+    brume::SceneValues spare_;                          // whose memory the next update takes
     std::vector<brume::EffectSettings> given_effects_;  // without what was chosen for the quality asked
     brume::Format format_;
     brume::Structure structure_;
@@ -146,7 +152,8 @@ private:
     std::unique_ptr<brume::FrameTimer> timer_;
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;
-    uint64_t image_bytes_ = 0;
+    brume::ImageMemory memory_;
+    uint64_t data_bytes_ = 0, frame_bytes_ = 0;
     brume::Content content_;
     brume::FrameLayers layers_;
     brume::Products products_;

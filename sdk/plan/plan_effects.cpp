@@ -20,15 +20,22 @@ bool is_lit(const Scene &scene)
     return !scene.lights.empty() || !scene.environment.coefficients.empty();
 }
 
-// Media of which this is false cannot be seen, however dense.
-bool renders(const Medium &medium)
+bool any(const Number3 &numbers)
 {
-    const auto any = [](const Number3 &numbers) {
-        return std::any_of(numbers.begin(), numbers.end(), [](const Number &number) {
-            return std::any_of(number.keys.begin(), number.keys.end(), [](auto &key) { return key.second != 0; });
-        });
-    };
-    return medium.visibility || any(medium.scattering) || any(medium.absorption) || any(medium.emission);
+    return std::any_of(numbers.begin(), numbers.end(), [](const Number &number) {
+        return std::any_of(number.keys().begin(), number.keys().end(), [](auto &key) { return key.second != 0; });
+    });
+}
+
+bool scatters(const Medium &medium)
+{
+    return medium.visibility || any(medium.scattering);
+}
+
+// Media of which this is false cannot be seen, however dense.
+bool is_seen(const Medium &medium)
+{
+    return scatters(medium) || any(medium.absorption) || any(medium.emission);
 }
 
 // Whether the scene's content, which names no effects, asks for this one.
@@ -49,8 +56,11 @@ bool wants(const Scene &scene, const Effect &effect, const FrameLayers &layers)
 void brume_host_t::choose_effects()
 {
     const auto &registry = context_->effects;
-    if (!scene_.effects_named && scene_.medium && renders(*scene_.medium))
-        registry.expect_one_for_media();
+    if (!scene_.effects_named && scene_.medium && is_seen(*scene_.medium))
+        registry.expect_one(BRUME_WANTED_WITH_MEDIUM, "medium", "media");
+    if (!scene_.effects_named && scene_.medium && scatters(*scene_.medium) && is_lit(scene_))
+        registry.expect_one(BRUME_WANTED_WITH_LIGHTS, scene_.lights.empty() ? "environment" : "lights",
+                            "light that media scatter");
     for (const EffectSettings &settings : scene_.effects)
         effects_.push_back({.effect = &registry.find(settings.name), .named = true});
     for (const Effect &effect : registry.all()) {

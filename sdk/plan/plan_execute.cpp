@@ -128,6 +128,7 @@ int64_t brume_host_t::run_effects(const brume_frame &frame)
     auto depth = backend.import_depth(*frame.depth, format_.width, format_.height);
     auto output = backend.begin_output(*frame.output, 4, !in_place);
     layers_.begin(frame, scene_.lights.size(), backend);
+    frame_bytes_ = color->bytes + depth->bytes + output->bytes + layers_.bytes();
 
     brume_plugin_frame seen{};
     seen.struct_size = sizeof seen;

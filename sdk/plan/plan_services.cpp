@@ -75,14 +75,16 @@ brume_plugin_image brume_host_t::create_image(const char *label, int32_t width, 
         throw Error(BRUME_ERROR_ARGUMENT,
                     fmt::format("image {}: {} x {} x {}; expected sides from 1 to {} and 1, 2 or 4 channels",
                                 label ? label : "?", width, height, channels, largest));
-    if (rehearsal_)
+    if (rehearsal_) {
+        memory_.add(label ? label : "?", width, height, channels);
         return image_of_rehearsal();
+    }
     try {
         images_.push_back(context_->backend->create_image(width, height, channels, BRUME_PIXEL_F32));
     } catch (const Error &error) {
         throw Error(error.status(), fmt::format("image {}: {}", label ? label : "?", error.what()));
     }
-    image_bytes_ += uint64_t(width) * uint64_t(height) * uint64_t(channels) * 4;
+    memory_.add(label ? label : "?", width, height, channels);
     return images_.back().get();
 }
 
@@ -91,7 +93,7 @@ void brume_host_t::drop_image(brume_plugin_image image)
     const auto at = std::find_if(images_.begin(), images_.end(), [&](const auto &mine) { return mine.get() == image; });
     if (at == images_.end())
         return;
-    image_bytes_ -= uint64_t(image->width) * uint64_t(image->height) * uint64_t(image->channels) * 4;
+    memory_.take_away(uint64_t(image->width) * uint64_t(image->height) * uint64_t(image->channels) * 4);
     images_.erase(at);
 }
 
@@ -157,7 +159,9 @@ brume_plugin_image brume_host_t::upload(uint32_t slot, int32_t channels, const f
     // Powers of two, so that the pool serves the next frame's slightly longer list with the same image.
     const uint64_t rows = std::min<uint64_t>(std::bit_ceil(std::max<uint64_t>(1, (texels + width - 1) / width)),
                                              uint64_t(context_->backend->largest_size()));
+    const uint64_t samples = data.values.size();
     data.values.assign(rows * width * uint64_t(channels), 0.0f);
+    data_bytes_ += (data.values.size() - samples) * sizeof(float);
     std::copy_n(values, texels * uint64_t(channels), data.values.begin());
     brume_image image = BRUME_IMAGE_INIT;
     image.channels = uint32_t(channels);

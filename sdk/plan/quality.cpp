@@ -94,7 +94,7 @@ Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &s
 {
     const Quality &quality = scene.quality;
     if (!quality.asked())
-        return {std::make_unique<brume_host_t>(context, scene, format), ""};
+        return {plan_in_memory(context, scene, format), ""};
 
     const brume_host_t open(context, scene, format, Purpose::rehearsal);
     const bool reference = quality.preset == BRUME_PRESET_REFERENCE;
@@ -153,7 +153,7 @@ Chosen plan_with_quality(const std::shared_ptr<Context> &context, const Scene &s
     }
     if (choosing.empty())
         text += "nothing to choose from";
-    auto plan = std::make_unique<brume_host_t>(context, std::move(chosen), format);
+    auto plan = plan_in_memory(context, chosen, format);
     plan->set_given_effects(scene.effects);
     return {std::move(plan), text + fixed + (found.second ? "" : missed)};
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <brume/brume.h>
@@ -24,5 +25,14 @@ struct Format : brume_format {
 
     std::vector<LayerName> input_layers, output_layers;
 };
+
+// Whether effects may drop the same for both, of the same structure.
+inline bool drops_alike(const Format &a, const Format &b)
+{
+    const auto distances = [](const Format &f) {
+        return std::tie(f.depth_range[0], f.depth_range[1], f.far_distance, f.sky, f.sky_distance, f.nonpositive);
+    };
+    return distances(a) == distances(b);
+}
 
 }  // namespace brume

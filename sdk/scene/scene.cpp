@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "scene/fields.h"
 #include "scene/frame_values.h"
@@ -14,7 +15,7 @@ constexpr double koschmieder = 3.912;  // -log(0.02): contrast at the visibility
 
 bool always_zero(const Number &number)
 {
-    return std::all_of(number.keys.begin(), number.keys.end(), [](const auto &key) { return key.second == 0.0; });
+    return std::all_of(number.keys().begin(), number.keys().end(), [](const auto &key) { return key.second == 0.0; });
 }
 
 template <class T> bool any_animated(const T &value, Fields<T> fields)
@@ -128,8 +129,9 @@ void evaluate_density(const Scene &scene, const FrameValues &values, const std::
 
 }  // namespace
 
-double Number::at(double frame) const
+double Number::between_keys(double frame) const
 {
+    const std::vector<Key> &keys = *keys_;
     const auto after =
         std::upper_bound(keys.begin(), keys.end(), frame, [](double f, const auto &key) { return f < key.first; });
     if (after == keys.begin())
@@ -140,7 +142,7 @@ double Number::at(double frame) const
     return std::lerp(before->second, after->second, (frame - before->first) / (after->first - before->first));
 }
 
-bool Scene::animated() const
+bool SceneValues::animated() const
 {
     return (medium && brume::animated(*medium)) || any_animated(camera, camera_fields) ||
            any_animated(lights, light_fields) || std::any_of(lights.begin(), lights.end(), shadow_animated);
@@ -177,6 +179,16 @@ bool pose_matters(const Scene &scene)
     return std::any_of(medium.density.begin(), medium.density.end(), varies) || has_gaussians(scene);
 }
 
+bool drops_alike(const SceneValues &a, const SceneValues &b)
+{
+    const auto but_gaussians = [](const Medium &m) {
+        return std::tie(m.scattering, m.absorption, m.emission, m.g, m.visibility, m.droplet_diameter, m.density, m.noise);
+    };
+    return a.metres_per_unit == b.metres_per_unit && a.luminance == b.luminance &&
+           a.medium.has_value() == b.medium.has_value() &&
+           (!a.medium || but_gaussians(*a.medium) == but_gaussians(*b.medium));
+}
+
 Scene with_peak_medium(Scene scene)
 {
     if (!scene.medium)
@@ -184,13 +196,13 @@ Scene with_peak_medium(Scene scene)
     Medium &medium = *scene.medium;
     const auto by_value = [](const auto &a, const auto &b) { return a.second < b.second; };
     const auto peak = [&](Number &number) {
-        number = std::max_element(number.keys.begin(), number.keys.end(), by_value)->second;
+        number = std::max_element(number.keys().begin(), number.keys().end(), by_value)->second;
     };
     for (Number3 *numbers : {&medium.scattering, &medium.absorption, &medium.emission})
         std::for_each(numbers->begin(), numbers->end(), peak);
     if (medium.visibility)
         medium.visibility =
-            std::min_element(medium.visibility->keys.begin(), medium.visibility->keys.end(), by_value)->second;
+            std::min_element(medium.visibility->keys().begin(), medium.visibility->keys().end(), by_value)->second;
     for (DensityTerm &term : medium.density)
         peak(term.value);
     for (GaussianTerm &term : medium.gaussians)

@@ -4,27 +4,17 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <brume/brume.h>
 #include <brume/brume_plugin.h>
 
 #include "gaussians/gaussian.h"
+#include "scene/number.h"
 
 namespace brume {
 
 class GaussianFrames;
-
-// A number that may change over the frames: linear between keys, constant outside them.
-struct Number {
-    std::vector<std::pair<double, double>> keys{{0.0, 0.0}};  // (frame, value), ascending frames, never empty
-
-    Number() = default;
-    Number(double value) : keys{{0.0, value}} {}
-    bool animated() const { return keys.size() > 1; }
-    double at(double frame) const;
-};
 
 using Number3 = std::array<Number, 3>;
 
@@ -34,6 +24,8 @@ struct DensityTerm {
     Number falloff = 0.0;  // [1/m]
     Number3 direction{Number(0.0), Number(1.0), Number(0.0)};
     Number3 origin{};  // scene units
+
+    bool operator==(const DensityTerm &) const = default;
 };
 
 // A Gaussian density term of which some number may be keyed.
@@ -57,6 +49,8 @@ struct Noise {
     Number scale = 1.0;     // scene units
     Number3 offset{};       // scene units
     uint32_t seed = 0;
+
+    bool operator==(const Noise &) const = default;
 };
 
 struct Medium {
@@ -123,18 +117,22 @@ struct EffectSettings {
     std::map<std::string, double> parameters;  // only those set; choices by index
 };
 
-struct Scene {
+// What frames may show otherwise than a plan was made for.
+struct SceneValues {
     double metres_per_unit = 1.0;
     std::array<double, 3> luminance{0.2126, 0.7152, 0.0722};
     std::optional<Medium> medium;
     Camera camera;
     std::vector<Light> lights;
     Environment environment;
+
+    bool animated() const;
+};
+
+struct Scene : SceneValues {
     std::vector<EffectSettings> effects;  // those that the file or a call set
     Quality quality;
     bool effects_named = false;  // the file names its effects: what the content needs is not added to them
-
-    bool animated() const;
 };
 
 // From BRUME_PRESET_DRAFT on.
@@ -156,6 +154,10 @@ bool has_gaussians(const Scene &scene);
 
 // Whether some are known only with the frame.
 bool reads_gaussians_by_frame(const Scene &scene);
+
+// Whether effects that dropped what they have to do with one scene have no reason to do it with the other, of the same
+// structure: what they may go by (brume_effect.plan) is the same.
+bool drops_alike(const SceneValues &a, const SceneValues &b);
 
 // The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
 Scene with_peak_medium(Scene scene);

@@ -12,28 +12,32 @@ namespace {
 
 constexpr double rigid_tolerance = 1e-3;
 
-void check(double value, const Range &range, const std::string &name)
+[[noreturn]] void refuse(double value, const Range &range, const std::string &name)
 {
-    if (!range.contains(value))
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {}; expected {}", name, value, range.describe()));
+    throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}: {}; expected {}", name, value, range.describe()));
 }
 
-// Names are made only where they are needed: engines bring thousands of lights with each frame.
-template <class T> void check_fields(const T &value, Fields<T> fields, uint32_t kind, const std::string &prefix)
+void check(double value, const Range &range, const ValueName &name)
+{
+    if (!range.contains(value))
+        refuse(value, range, name.text());
+}
+
+template <class T> void check_fields(const T &value, Fields<T> fields, uint32_t kind, const ValueName &prefix)
 {
     each_number(value, fields, kind, [&](const Field<T> &field, const Number &number, int index) {
         const double unit = field.has(degrees) ? degree : 1.0;
         const Range range{field.range.minimum * unit, field.range.maximum * unit, field.range.open};
-        for (const auto &key : number.keys)
+        for (const auto &key : number.keys())
             if (!range.contains(key.second))
-                check(key.second, range, prefix + field.key + (index < 0 ? "" : fmt::format("[{}]", index)));
+                refuse(key.second, range, prefix.text() + field.key + (index < 0 ? "" : fmt::format("[{}]", index)));
     });
 }
 
-void check_direction(const Number3 &direction, const std::string &name)
+void check_direction(const Number3 &direction, const ValueName &name)
 {
     if (std::all_of(direction.begin(), direction.end(), [](const Number &n) { return n.at(0) == 0; }))
-        throw Error(BRUME_ERROR_ARGUMENT, name + ": (0, 0, 0); expected a direction");
+        throw Error(BRUME_ERROR_ARGUMENT, name.text() + ": (0, 0, 0); expected a direction");
 }
 
 }  // namespace
@@ -63,51 +67,47 @@ void check_medium(const Medium &medium)
     size_t exponential = 0;
     for (size_t i = 0; i < medium.density.size(); ++i) {
         const DensityTerm &term = medium.density[i];
-        std::string name = fmt::format("medium.terms[{}]", i);
+        const ValueName name("medium.terms", int64_t(i));
         if (term.type != BRUME_DENSITY_CONSTANT && term.type != BRUME_DENSITY_EXPONENTIAL)
-            throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_DENSITY_...", name, term.type));
-        check_fields(term, density_fields, 1u << term.type, name + ".");
+            throw Error(BRUME_ERROR_ARGUMENT,
+                        fmt::format("{}.type: {}; expected a BRUME_DENSITY_...", name.text(), term.type));
+        check_fields(term, density_fields, 1u << term.type, name.of("."));
         if (term.type != BRUME_DENSITY_EXPONENTIAL)
             continue;
         ++exponential;
-        check_direction(term.direction, name + ".direction");
+        check_direction(term.direction, name.of(".direction"));
     }
     if (exponential > BRUME_MAX_DENSITY_TERMS)
         throw Error(BRUME_ERROR_ARGUMENT, fmt::format("medium.terms: {} exponential ones; expected at most {}", exponential,
                                                       BRUME_MAX_DENSITY_TERMS));
 }
 
-void check_gaussian(const Gaussian &gaussian, const std::string &name)
+void check_gaussian(const Gaussian &gaussian, const ValueName &name)
 {
-    // Names are made only where they are needed: there may be a million of these.
-    const auto within = [](const auto &values, const Range &range) {
-        return std::all_of(values.begin(), values.end(), [&](double x) { return range.contains(x); });
-    };
-    if (within(gaussian.center, ranges::any) && within(gaussian.color, ranges::fraction) &&
-        ranges::positive.contains(gaussian.scale) && ranges::not_negative.contains(gaussian.amplitude))
-        return;
+    static constexpr std::string_view centers[] = {".center[0]", ".center[1]", ".center[2]"},
+                                      colors[] = {".color[0]", ".color[1]", ".color[2]"};
     for (size_t i = 0; i < 3; ++i) {
-        check(gaussian.center[i], ranges::any, fmt::format("{}.center[{}]", name, i));
-        check(double(gaussian.color[i]), ranges::fraction, fmt::format("{}.color[{}]", name, i));
+        check(gaussian.center[i], ranges::any, name.of(centers[i]));
+        check(double(gaussian.color[i]), ranges::fraction, name.of(colors[i]));
     }
-    check(gaussian.scale, ranges::positive, name + ".scale");
-    check(gaussian.amplitude, ranges::not_negative, name + ".amplitude");
+    check(gaussian.scale, ranges::positive, name.of(".scale"));
+    check(gaussian.amplitude, ranges::not_negative, name.of(".amplitude"));
 }
 
 namespace {
 
-void check_range(const LightShadow &shadow, const std::string &name)
+void check_range(const LightShadow &shadow, const ValueName &name)
 {
     const auto [first, last] = shadow.range;
     const bool parallel = shadow.kind == BRUME_SHADOW_ORTHOGRAPHIC;
     const bool right = parallel ? std::isfinite(first) && std::isfinite(last) : first > 0 && last > 0;
     if (!right || !(first < last || first > last))
         throw Error(BRUME_ERROR_ARGUMENT,
-                    fmt::format("{}.shadow_range: ({}, {}); expected {}", name, first, last,
+                    fmt::format("{}.shadow_range: ({}, {}); expected {}", name.text(), first, last,
                                 parallel ? "two finite distances that differ" : "two distances above 0 that differ"));
 }
 
-void check_shadow(const Light &light, const std::string &name)
+void check_shadow(const Light &light, const ValueName &name)
 {
     const LightShadow &shadow = light.shadow;
     if (shadow.kind == BRUME_SHADOW_NONE)
@@ -118,41 +118,43 @@ void check_shadow(const Light &light, const std::string &name)
         return;
     if (shadow.kind != (parallel ? BRUME_SHADOW_ORTHOGRAPHIC : BRUME_SHADOW_PERSPECTIVE) && (parallel || !around))
         throw Error(BRUME_ERROR_ARGUMENT,
-                    fmt::format("{}.shadow_kind: {}; expected BRUME_SHADOW_NONE or {}", name, shadow.kind,
+                    fmt::format("{}.shadow_kind: {}; expected BRUME_SHADOW_NONE or {}", name.text(), shadow.kind,
                                 parallel ? "_ORTHOGRAPHIC for a directional light"
                                          : "_PERSPECTIVE, _LATLONG or _SCREEN for a point or spot light"));
     if (shadow.depth != BRUME_DEPTH_PLANAR && shadow.depth != BRUME_DEPTH_RAY && shadow.depth != BRUME_DEPTH_DEVICE)
-        throw Error(BRUME_ERROR_ARGUMENT,
-                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR, _RAY or _DEVICE", name, shadow.depth));
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_PLANAR, _RAY or _DEVICE",
+                                                      name.text(), shadow.depth));
     if (shadow.depth == BRUME_DEPTH_DEVICE)
         check_range(shadow, name);
     if (around && shadow.depth != BRUME_DEPTH_RAY)
-        throw Error(BRUME_ERROR_ARGUMENT,
-                    fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around", name, shadow.depth));
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_depth: {}; expected BRUME_DEPTH_RAY of a map all around",
+                                                      name.text(), shadow.depth));
     if (!around)
-        check(shadow.extent.at(0), parallel ? ranges::positive : ranges::shadow_angle, name + ".shadow_extent");
+        check(shadow.extent.at(0), parallel ? ranges::positive : ranges::shadow_angle, name.of(".shadow_extent"));
     std::array<double, 16> matrix;
     for (size_t i = 0; i < 16; ++i) {
         matrix[i] = shadow.to_world[i].at(0);
-        check(matrix[i], ranges::any, fmt::format("{}.shadow_to_world[{}]", name, i));
+        if (!ranges::any.contains(matrix[i]))
+            refuse(matrix[i], ranges::any, fmt::format("{}.shadow_to_world[{}]", name.text(), i));
     }
     if (const std::string defect = rigid_defect(matrix); !defect.empty())
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.shadow_to_world: {}; expected a rigid motion", name, defect));
+        throw Error(BRUME_ERROR_ARGUMENT,
+                    fmt::format("{}.shadow_to_world: {}; expected a rigid motion", name.text(), defect));
 }
 
 }  // namespace
 
-void check_light(const Light &light, const std::string &name)
+void check_light(const Light &light, const ValueName &name)
 {
     check_shadow(light, name);
     if (light.surfaces > BRUME_SURFACES_UNLIT)
         throw Error(BRUME_ERROR_ARGUMENT,
-                    fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name, light.surfaces));
+                    fmt::format("{}.surfaces: {}; expected a BRUME_SURFACES_...", name.text(), light.surfaces));
     if (light.type > BRUME_LIGHT_DIRECTIONAL)
-        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name, light.type));
-    check_fields(light, light_fields, 1u << light.type, name + ".");
+        throw Error(BRUME_ERROR_ARGUMENT, fmt::format("{}.type: {}; expected a BRUME_LIGHT_...", name.text(), light.type));
+    check_fields(light, light_fields, 1u << light.type, name.of("."));
     if (light.type != BRUME_LIGHT_POINT)
-        check_direction(light.direction, name + ".direction");
+        check_direction(light.direction, name.of(".direction"));
 }
 
 void check_environment(const Environment &environment)
@@ -160,7 +162,8 @@ void check_environment(const Environment &environment)
     const auto &coefficients = environment.coefficients;
     for (size_t i = 0; i < coefficients.size(); ++i)
         for (size_t channel = 0; channel < 3; ++channel)
-            check(coefficients[i][channel], ranges::any, fmt::format("environment[{}][{}]", i, channel));
+            if (!ranges::any.contains(coefficients[i][channel]))
+                refuse(coefficients[i][channel], ranges::any, fmt::format("environment[{}][{}]", i, channel));
 }
 
 }  // namespace brume

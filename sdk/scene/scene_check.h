@@ -1,12 +1,13 @@
 #pragma once
+#include "base/value_name.h"
 #include "scene/scene.h"
 
 namespace brume {
 
 // What came in structs, held to the same ranges as a scene file's; throw Error(BRUME_ERROR_ARGUMENT).
 void check_medium(const Medium &medium);
-void check_gaussian(const Gaussian &gaussian, const std::string &name);
-void check_light(const Light &light, const std::string &name);
+void check_gaussian(const Gaussian &gaussian, const ValueName &name);
+void check_light(const Light &light, const ValueName &name);
 void check_environment(const Environment &environment);
 
 // Says what is wrong with a matrix as a rigid motion; empty if nothing is.

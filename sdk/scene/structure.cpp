@@ -10,15 +10,15 @@ namespace {
 
 double peak(const Number &number)
 {
-    double most = number.keys.front().second;
-    for (const auto &key : number.keys)
+    double most = number.keys().front().second;
+    for (const auto &key : number.keys())
         most = std::max(most, std::abs(key.second));
     return most;
 }
 
 bool grey(const Number3 &v)
 {
-    return v[0].keys == v[1].keys && v[1].keys == v[2].keys;
+    return v[0] == v[1] && v[1] == v[2];
 }
 
 }  // namespace

@@ -11,28 +11,27 @@
 namespace brume {
 namespace {
 
-Number read_keys(const JsonNode &keys, const Range &range)
+Number read_keys(const JsonNode &keys, const Range &range, double unit)
 {
     const std::string what = "[frame, value] pairs, one at least";
     const size_t count = keys.array_size(what);
     if (count == 0)
         keys.expected(what);
-    Number number;
-    number.keys.clear();
+    std::vector<Number::Key> read;
     for (size_t i = 0; i < count; ++i) {
         const JsonNode key = keys.item(i);
         key.check_array_size(2, "a [frame, value] pair");
         const double frame = read_constant(key.item(0), ranges::frame);
-        if (i > 0 && frame <= number.keys.back().first)
-            key.item(0).expected(fmt::format("a frame after {}: keys ascend", number.keys.back().first));
-        number.keys.emplace_back(frame, read_constant(key.item(1), range));
+        if (i > 0 && frame <= read.back().first)
+            key.item(0).expected(fmt::format("a frame after {}: keys ascend", read.back().first));
+        read.emplace_back(frame, read_constant(key.item(1), range) * unit);
     }
-    return number;
+    return Number(std::move(read));
 }
 
 bool always_zero(const Number &number)
 {
-    return std::all_of(number.keys.begin(), number.keys.end(), [](const auto &key) { return key.second == 0.0; });
+    return std::all_of(number.keys().begin(), number.keys().end(), [](const auto &key) { return key.second == 0.0; });
 }
 
 }  // namespace
@@ -48,14 +47,14 @@ double read_constant(const JsonNode &node, const Range &range)
 
 namespace {
 
-Number read_number(const JsonNode &node, const Range &range)
+Number read_number(const JsonNode &node, const Range &range, double unit = 1.0)
 {
     if (node.value().as<double>())
-        return read_constant(node, range);
+        return read_constant(node, range) * unit;
     if (!node.value().as<JsonValue::Object>())
         node.expected(range.describe() + ", or {\"keys\": [[frame, value], ...]}");
     node.allow_only({"keys"});
-    return read_keys(node.get("keys"), range);
+    return read_keys(node.get("keys"), range, unit);
 }
 
 }  // namespace
@@ -70,9 +69,7 @@ void FieldReader::operator()(uint32_t &to) const
 
 void FieldReader::operator()(Number &to) const
 {
-    to = read_number(node, range);
-    for (auto &key : to.keys)
-        key.second *= traits & degrees ? degree : 1.0;
+    to = read_number(node, range, traits & degrees ? degree : 1.0);
 }
 
 void FieldReader::operator()(std::array<Number, 2> &to) const
@@ -105,7 +102,7 @@ void FieldReader::operator()(Matrix &to) const
         node.item(row).check_array_size(4, what);
         for (size_t column = 0; column < 4; ++column) {
             const Number &element = to[4 * row + column] = read_number(node.item(row).item(column), range);
-            for (const auto &key : element.keys)
+            for (const auto &key : element.keys())
                 frames.insert(key.first);
         }
     }

@@ -1,38 +1,15 @@
 // Plans that are too large for the memory, giving memory back, and frames that take none.
+#include <sys/resource.h>
+
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <string_view>
 
+#include "allocations.h"
 #include "client.h"
 
 using namespace client;
-
-namespace {
-thread_local size_t largest_allocation = size_t(-1);
-std::atomic<size_t> allocations = 0;  // on all threads
-}  // namespace
-
-// The library's, too.
-void *operator new(size_t size)
-{
-    ++allocations;
-    if (size <= largest_allocation)
-        if (void *memory = std::malloc(size ? size : 1))
-            return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void *memory) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void *memory, size_t) noexcept
-{
-    std::free(memory);
-}
 
 namespace {
 
@@ -69,14 +46,14 @@ TEST(PlansOfAnotherSize, TakeTheMemoryThatTheLastOneLeft)
     make_plan(context, scene, ray_format(320, 256));
     brume_context_info before = BRUME_CONTEXT_INFO_INIT, after = BRUME_CONTEXT_INFO_INIT;
     ASSERT_EQ(brume_context_get_info(context.get(), &before), BRUME_OK);
-    largest_allocation = size_t(320) * 256;  // a picture of one channel takes four times as much
+    allocations::largest_granted = size_t(320) * 256;  // a picture of one channel takes four times as much
     for (const auto &[width, height] : {std::pair(300, 240), std::pair(270, 216), std::pair(240, 192)}) {
         const brume_format format = ray_format(width, height);
         brume_plan plan = nullptr;
         EXPECT_EQ(brume_plan_create(scene.get(), &format, &plan), BRUME_OK) << width << ": " << message(context.get());
         brume_plan_destroy(plan);
     }
-    largest_allocation = size_t(-1);
+    allocations::largest_granted = size_t(-1);
     ASSERT_EQ(brume_context_get_info(context.get(), &after), BRUME_OK);
     EXPECT_LE(after.host_bytes, before.host_bytes);
 }
@@ -87,15 +64,37 @@ TEST(TooLargePlans, SayWhatWasWantedAndHoldNothing)
     Scene scene = make_scene(context, foggy);
     const brume_format format = ray_format(2048, 1024);
     brume_plan plan = nullptr;
-    largest_allocation = size_t(20) << 20;
+    allocations::largest_granted = size_t(20) << 20;
     const brume_status status = brume_plan_create(scene.get(), &format, &plan);
-    largest_allocation = size_t(-1);
+    allocations::largest_granted = size_t(-1);
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, " x 4 floats, ");
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, "MB: out of memory");
     expect_status(context.get(), status, BRUME_ERROR_MEMORY, "image ");
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, "; the plan takes ");
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, ", the largest radiance: 2048 x 1024 x 4 floats, 33.6 MB");
     brume_context_info info = BRUME_CONTEXT_INFO_INIT;
     ASSERT_EQ(brume_context_get_info(context.get(), &info), BRUME_OK);
     EXPECT_EQ(info.host_bytes, 0u);
+}
+
+// Systems promise more memory than they have, and end who takes it.
+TEST(TooLargePlans, AreRefusedBeforeTheyTakeMemory)
+{
+    Context context = make_context(BRUME_BACKEND_CPU);
+    Scene scene = make_scene(context, foggy);
+    const brume_format format = ray_format(32768, 16384);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+    rlimit less = before;
+    less.rlim_cur = rlim_t(30) << 30;
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &less), 0);
+    allocations::largest_granted = size_t(20) << 20;
+    brume_plan plan = nullptr;
+    const brume_status status = brume_plan_create(scene.get(), &format, &plan);
+    allocations::largest_granted = size_t(-1);
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, "format: 32768 x 16384 takes ");
+    expect_status(context.get(), status, BRUME_ERROR_MEMORY, " x 4 floats, 8.6 GB; expected at most the ");
 }
 
 // Lights and Gaussians that stand still, seen by both effects.
@@ -139,10 +138,10 @@ protected:
         frame.input_count = uint32_t(inputs.size());
         for (int i = 0; i < 12; ++i)
             ASSERT_EQ(brume_plan_execute(plan.get(), &frame), BRUME_OK);
-        const size_t before = allocations;
+        const size_t before = allocations::count;
         for (int i = 0; i < 10; ++i)
             brume_plan_execute(plan.get(), &frame);
-        EXPECT_EQ(allocations - before, 0u) << "in ten frames";
+        EXPECT_EQ(allocations::count - before, 0u) << "in ten frames";
     }
 
     double milliseconds(brume_plan plan, const Picture &color, const Picture &depth, Picture &output, int frames)
@@ -200,6 +199,40 @@ TEST_P(Frames, ThatDoNothingCostNothing)
         EXPECT_LT(milliseconds(plan.get(), color, depth, output, 50), 0.2)
             << lights << " lights, " << gaussians << " Gaussians";
     }
+}
+
+// Lights that cannot be seen are nothing to the filter; each that can is looked for by each pixel. By turns, so that what
+// else the machine does is in both.
+TEST_P(Frames, LightsWithoutARadiusCostTheFilterNothing)
+{
+    constexpr int side = 96;
+    auto plan_with = [&](int lights) {
+        std::string text = lit_scene(lights, 0, R"("scattering": 0.03)");
+        for (size_t at = 0; (at = text.find("\"radius\": 0.1", at)) != std::string::npos;)
+            text.replace(at, 13, "\"radius\": 0.0");
+        text.back() = ',';
+        Scene scene = make_scene(
+            context, text + R"("effects": {"multiscatter": {}, "airlight": {"tier": "sun", "resolution": "quarter"}}})");
+        return make_plan(context, scene, ray_format(side, side));
+    };
+    Picture color(side, side), depth(side, side, {.channels = 1}), output(side, side);
+    paint(color);
+    paint_depth(depth);
+    auto filter_ms = [&](brume_plan plan) {
+        EXPECT_EQ(execute(plan, color, depth, output), BRUME_OK) << message(context.get());
+        double ms = 0;
+        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+        for (uint32_t i = 0; brume_plan_get_entry(plan, i, &entry) == BRUME_OK; ++i)
+            ms += entry.runs && std::string_view(entry.effect) == "multiscatter" ? entry.measured_ms : 0;
+        return ms;
+    };
+    const Plan lit = plan_with(128), unlit = plan_with(0);
+    double with = 1e9, without = 1e9;
+    for (int i = 0; i < 20; ++i) {
+        with = std::min(with, filter_ms(lit.get()));
+        without = std::min(without, filter_ms(unlit.get()));
+    }
+    EXPECT_LT(with, 1.5 * without);
 }
 
 }  // namespace

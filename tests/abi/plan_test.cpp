@@ -37,6 +37,30 @@ const char *const layered = R"({"brume": 1, "medium": {"absorption": 0.02,
 
 }  // namespace
 
+// What callers bring in other formats than effects take is converted, and what moves is uploaded.
+TEST_P(Plans, CountTheMemoryOfWhatFramesBring)
+{
+    Scene scene = make_scene(context, R"({"brume": 1,
+        "camera": {"vertical_fov": 50, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium": {"scattering": 0.03}, "lights": [{"type": "point", "position": [0, 0, -5], "intensity": 9}]})");
+    Plan plan = make_plan(context, scene, ray_format(32, 24));
+    const uint64_t planned = info(plan).image_bytes;
+    Picture color(32, 24), half(32, 24, {.pixel = BRUME_PIXEL_F16}), depth(32, 24, {.channels = 1}), output(32, 24);
+    paint(color);
+    paint(half);
+    paint_depth(depth);
+    auto bytes_after = [&](const Picture &given) {
+        EXPECT_EQ(execute(plan.get(), given, depth, output), BRUME_OK) << message(context.get());
+        return info(plan).image_bytes;
+    };
+    const uint64_t packed = bytes_after(color);
+    EXPECT_GE(packed, planned + 1024 * 16) << "the lights";
+    if (GetParam() != BRUME_BACKEND_CPU)  // OpenGL has its own of all
+        return;
+    EXPECT_EQ(bytes_after(half), packed + 32 * 24 * 16);
+    EXPECT_EQ(bytes_after(color), packed);
+}
+
 TEST_P(Plans, EntriesHaveReasons)
 {
     Scene scene = make_scene(context, foggy);

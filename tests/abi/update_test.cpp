@@ -182,6 +182,32 @@ TEST_P(Updates, OfAPlanThatDoesNothing)
         EXPECT_NE(message(context.get()).find("expected a new plan"), std::string::npos) << message(context.get());
 }
 
+// Whatever it was left out for: the medium, its density, lengths, and how far frames show.
+TEST_P(Updates, ThatWakeWhatWasDroppedAreRefused)
+{
+    const std::string thin = R"({"brume": 1, "metres_per_unit": 1, "camera": {"vertical_fov": 50},
+        "medium": {"scattering": 1e-12, "density": [{"type": "constant", "value": 2}]}})";
+    Scene scene = make_scene(context, thin), alike = make_scene(context, replaced(thin, "1e-12", "2e-12"));
+    brume_format format = ray_format(width, height);
+    format.sky = BRUME_SKY_KEEP;
+    format.far_distance = 1000;
+    Plan plan = make_plan(context, scene, format);
+    ASSERT_EQ(brume_plan_update(plan.get(), alike.get(), &format), BRUME_OK) << message(context.get());
+    const std::string reason = "multiscatter: dropped when planned, it would run now";
+    for (const auto &[what, by] : {std::pair("1e-12", "1e-3"), std::pair("\"value\": 2", "\"value\": 2e9"),
+                                   std::pair("\"metres_per_unit\": 1", "\"metres_per_unit\": 1e9")}) {
+        Scene dense = make_scene(context, replaced(thin, what, by));
+        expect_status(context.get(), brume_plan_update(plan.get(), dense.get(), nullptr), BRUME_ERROR_FORMAT, reason);
+    }
+    brume_format far = format;
+    far.far_distance = 1e15;
+    expect_status(context.get(), brume_plan_update(plan.get(), alike.get(), &far), BRUME_ERROR_FORMAT, reason);
+    far = format;
+    far.sky = BRUME_SKY_FOG;
+    expect_status(context.get(), brume_plan_update(plan.get(), alike.get(), &far), BRUME_ERROR_FORMAT, reason);
+    ASSERT_EQ(brume_plan_update(plan.get(), scene.get(), nullptr), BRUME_OK) << message(context.get());
+}
+
 // Depth that has become planar needs what a new plan for it would need.
 TEST_P(Updates, NeedTheCameraThatANewPlanNeeds)
 {

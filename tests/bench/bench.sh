@@ -8,6 +8,7 @@ if [ "${1:-}" = trade ]; then shift; exec tests/bench/trade.sh "$@"; fi
 out=out/bench
 mkdir -p "$out"
 build/release/bin/filter_bench ${1:+"$1"} "$out/filter.json" "$out/filter.md"
+build/release/bin/host_bench | tee "$out/host.md"
 build/release/bin/airlight_accuracy ${1:+"$1"} "$out/airlight.json" "$out/airlight.md"
 build/release/bin/airlight_bench ${1:+"$1"} "$out/airlight_speed.json" "$out/airlight_speed.md"
 build/release/bin/maps_bench 353 1 353 3 3008 1 3008 3 3008 8 | tee "$out/maps.md"

@@ -25,9 +25,7 @@ Number3 numbers(double x, double y, double z)
 
 Number keyed(double first, double second)
 {
-    Number number;
-    number.keys = {{1.0, first}, {3.0, second}};
-    return number;
+    return Number({{1.0, first}, {3.0, second}});
 }
 
 std::vector<brume_plugin_light> lights_of(const Scene &scene, double frame = 0, const Matrix &pose = identity)

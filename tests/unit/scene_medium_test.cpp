@@ -154,8 +154,7 @@ Scene scene_with(std::vector<DensityTerm> terms)
 
 TEST(Number, InterpolatesBetweenKeysAndHoldsOutside)
 {
-    Number number;
-    number.keys = {{1.0, 10.0}, {3.0, 20.0}, {4.0, 0.0}};
+    const Number number({{1.0, 10.0}, {3.0, 20.0}, {4.0, 0.0}});
     EXPECT_EQ(number.at(-1e300), 10.0);
     EXPECT_EQ(number.at(1.0), 10.0);
     EXPECT_EQ(number.at(2.0), 15.0);
@@ -170,8 +169,7 @@ TEST(Number, InterpolatesBetweenKeysAndHoldsOutside)
 
 TEST(Scene, KnowsWhatIsAnimated)
 {
-    Number keyed;
-    keyed.keys = {{1.0, 0.1}, {2.0, 0.2}};
+    const Number keyed({{1.0, 0.1}, {2.0, 0.2}});
     const auto with = [&](const std::function<void(Scene &)> &change) {
         Scene scene = scene_with({exponential(1, 1, {0, 1, 0}, {0, 0, 0})});
         scene.camera.camera_to_world.emplace();
@@ -307,7 +305,7 @@ std::string failure(const Scene &scene, double frame, const Matrix &pose = ident
 TEST(EvaluateMedium, RefusesWhatKeysLeadTo)
 {
     Scene scene = scene_with({exponential(1, 1, {0, 1, 0}, {0, 0, 0})});
-    scene.medium->density[0].direction[1].keys = {{1.0, 1.0}, {3.0, -1.0}};
+    scene.medium->density[0].direction[1] = Number({{1.0, 1.0}, {3.0, -1.0}});
     EXPECT_EQ(failure(scene, 1.0), "");
     EXPECT_EQ(failure(scene, 2.0), "medium.density[0].direction: (0, 0, 0) at frame 2; expected a vector that is not zero");
 

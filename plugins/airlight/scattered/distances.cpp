@@ -31,10 +31,6 @@ double seen(const brume_plugin_camera &camera, vec3 position, int width, int hei
     return std::max(1 / (1 + 10 * aside * aside), 0.02);
 }
 
-struct Lamp {
-    double distance, width, weight;
-};
-
 double power_of(const brume_plugin_light &light)
 {
     return std::min((double(light.intensity[0]) + light.intensity[1] + light.intensity[2]) / 3, 1e30);
@@ -59,13 +55,13 @@ Extent of_the_gaussians(const brume_plugin_scene &scene)
 }
 
 // How much of the view's Gaussians' light each bin has, by as many steps as they are small; 1 in all.
-std::vector<double> along_gaussians(const brume_plugin_scene &scene, int width, int height,
-                                    const std::array<double, bins + 1> &at)
+void along_gaussians(const brume_plugin_scene &scene, int width, int height, const std::array<double, bins + 1> &at,
+                     std::vector<double> &share)
 {
     const Medium medium = medium_of(scene);
     const vec3 extinction = medium.scattering + medium.absorption;
     const double most = std::min(std::max({extinction.x, extinction.y, extinction.z}), 1e30);
-    std::vector<double> share(bins + 1, 0.0);
+    share.assign(bins + 1, 0.0);
     for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
         const Gaussian g = gaussian_of(scene.gaussians[i]);
         const double distance = length(g.center), radius = 1 / std::max(double(g.scale), 1e-30),
@@ -86,18 +82,19 @@ std::vector<double> along_gaussians(const brume_plugin_scene &scene, int width, 
     }
     for (double &s : share)
         s = all > 0 ? s / all : 1.0 / bins;
-    return share;
 }
 
 }  // namespace
 
-std::vector<float> place_distances(const brume_plugin_scene &scene, int width, int height, int steps, double angle)
+const std::vector<float> &Placement::distances(const brume_plugin_scene &scene, int width, int height, int steps,
+                                               double angle)
 {
     const bool terms = scene.medium->constant > 0 || scene.medium->term_count > 0;
     const Extent gaussians = of_the_gaussians(scene);
     const double end =
         std::clamp(terms ? maps::end_of_terms(scene, std::min(gaussians.to, 1e9)) : std::min(gaussians.to, 1e9), 1e-3, 1e9);
-    std::vector<Lamp> lamps;
+    std::vector<Lamp> &lamps = lamps_;
+    lamps.clear();
     double all = 0, brightest = 0;
     for (uint32_t l = 0; l < scene.light_count; ++l)
         if (scene.lights[l].type != BRUME_LIGHT_DIRECTIONAL)
@@ -136,7 +133,8 @@ std::vector<float> place_distances(const brume_plugin_scene &scene, int width, i
         }
     }
     if (gaussians.from < gaussians.to) {
-        const std::vector<double> of_each = along_gaussians(scene, width, height, at);
+        std::vector<double> &of_each = shares_;
+        along_gaussians(scene, width, height, at, of_each);
         for (int i = 0; i < bins; ++i)
             dense[size_t(i)] +=
                 of_gaussians *
@@ -147,7 +145,8 @@ std::vector<float> place_distances(const brume_plugin_scene &scene, int width, i
     double sum = 0;
     for (double d : dense)
         sum += d;
-    std::vector<float> distances(1, 0.0f);
+    std::vector<float> &distances = distances_;
+    distances.assign(1, 0.0f);
     double passed = 0;
     int bin = 0;
     for (int k = 1; k <= steps; ++k) {
@@ -161,11 +160,12 @@ std::vector<float> place_distances(const brume_plugin_scene &scene, int width, i
     return distances;
 }
 
-std::vector<float> peaks_of(const brume_plugin_scene &scene)
+const std::vector<float> &Placement::peaks(const brume_plugin_scene &scene)
 {
     const Medium medium = medium_of(scene);
     const double scattering = std::min((medium.scattering.x + medium.scattering.y + medium.scattering.z) / 3, 1e9);
-    std::vector<double> weights(1 + scene.light_count, 0.0);
+    std::vector<double> &weights = weights_;
+    weights.assign(1 + scene.light_count, 0.0);
     for (uint32_t l = 0; l < scene.light_count; ++l) {
         const brume_plugin_light &light = scene.lights[l];
         const double power = power_of(light);
@@ -186,7 +186,8 @@ std::vector<float> peaks_of(const brume_plugin_scene &scene)
     if (!(most > 0))
         weights[0] = 1;
     const double scale = most > 0 ? 1 / most : 1;
-    std::vector<float> peaks;
+    std::vector<float> &peaks = peaks_;
+    peaks.clear();
     for (double w : weights)
         peaks.push_back(float(w * scale));
     peaks[0] = std::max(peaks[0], 1e-12f);

@@ -129,7 +129,7 @@ brume_status refresh_scattered(const brume_services &services, brume_host host, 
     s.lights = int(scene.light_count);
     s.gaussians = int(scene.gaussian_count);
     const double angle = s.cell * double(std::abs(scene.camera->tangent_scale[0]));
-    const std::vector<float> distances = scattered::place_distances(scene, state.width, state.height, s.slices, angle);
+    const std::vector<float> &distances = of.placement.distances(scene, state.width, state.height, s.slices, angle);
     const std::vector<float> &slices = state.maps.distances;
     state.values.clear();
     for (float t : distances) {
@@ -143,7 +143,7 @@ brume_status refresh_scattered(const brume_services &services, brume_host host, 
         }
         state.values.insert(state.values.end(), {t, slice, place, 0.0f});
     }
-    for (float w : scattered::peaks_of(scene))
+    for (float w : of.placement.peaks(scene))
         state.values.insert(state.values.end(), {w, 0.0f, 0.0f, 0.0f});
     return upload(services, host, upload_distances, 4, state.values, of.distances);
 }

@@ -5,6 +5,7 @@
 
 #include <brume/brume_plugin.h>
 
+#include "scattered/distances.h"
 #include "scattered/maths.h"
 
 namespace airlight {
@@ -21,6 +22,7 @@ struct Scattered {
 
     // Refreshed when something moved.
     brume_plugin_image distances = nullptr;
+    scattered::Placement placement;
 };
 
 // Whether a plan's light of all orders comes from a grid; the exact way is for errors that it does not reach.

@@ -549,8 +549,10 @@ typedef struct brume_format {
   {(uint32_t)sizeof(brume_format), 0, 0, 0, 0, 0, 0, 0u, {0.0, 1.0}, 1e9, 0u, 0u, 0.0, 0u, 0u, NULL, NULL}
 BRUME_API void brume_format_init(brume_format *format, size_t size);
 
-/* Works out what the scene needs for images of this format, and allocates its images. Once warm, executing it allocates nothing while
-   lights, Gaussians and camera stand still. BRUME_ERROR_NOT_FOUND where there is a medium and no effect was found that renders it. */
+/* Works out what the scene needs for images of this format, and allocates its images. Once warm, executing it allocates nothing, unless
+   there are Gaussians and they, lights or the camera move. BRUME_ERROR_NOT_FOUND where the scene names no effects and has a medium, or
+   lights or an environment that the medium scatters, and no effect was found that renders it. BRUME_ERROR_MEMORY says what all of the
+   plan's images take and which is the largest; on the CPU before any is made, where that is more than the process may use. */
 BRUME_API brume_status brume_plan_create(brume_scene scene, const brume_format *format, brume_plan *out);
 BRUME_API void brume_plan_destroy(brume_plan plan);
 
@@ -560,7 +562,12 @@ BRUME_API void brume_plan_destroy(brume_plan plan);
    its values are zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian
    densities, whether there are lights and such with a shadow map, how many coefficients the environment has; the size, the display window's presence
    and the layers of the format. Where that differs the call fails with BRUME_ERROR_FORMAT, names what differs, and leaves the plan as
-   it was. Cheap: it copies the scene. Predictions stay those of the scene that was planned. */
+   it was. Predictions stay those of the scene that was planned.
+   Cost: a copy of the scene's values, by their number, into memory that the plan keeps: once warm, moving lights and cameras by
+   brume_scene_set_lights, _set_camera, this and the frame allocate nothing. Gaussians are not copied, but brume_scene_set_medium
+   makes them anew. Where the plan dropped an effect, and the medium but for its Gaussians, metres_per_unit, the luminance weights or
+   the format's distances differ from the last, the effects plan once more to see that it is dropped still: about what
+   brume_plan_create costs without its images. docs/accuracy.md has figures. */
 BRUME_API brume_status brume_plan_update(brume_plan plan, brume_scene scene, const brume_format *format);
 
 typedef struct brume_plan_info {
@@ -569,7 +576,8 @@ typedef struct brume_plan_info {
   uint32_t does_nothing;     /* 1: every pass was dropped; execute copies, bit for bit */
   uint32_t camera_needs;     /* BRUME_CAMERA_... flags that executing needs */
   const char *camera_reason; /* what needs it and why; "" */
-  uint64_t image_bytes;      /* memory of the plan's own images */
+  uint64_t image_bytes;      /* memory of the plan's own images; from the first frame on with the data of lights and Gaussians
+                                and with what the last frame's images were converted to */
   double predicted_ms;       /* per frame, from the passes' operations and bytes at the context's rates: nominal ones, or its
                                 own after brume_context_calibrate */
   double predicted_error;    /* that 95 of 100 frames keep below, as brume_quality.max_error counts; < 0: unknown */

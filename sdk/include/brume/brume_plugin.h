@@ -376,7 +376,9 @@ typedef struct brume_effect {
      Frames may come with other values than the request's scene has (keys, brume_plan_update): of its medium, lights, Gaussians,
      environment and camera. What stays as planned: whether there is a medium, which of its nine cross-sections and emissions are
      zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian densities, how
-     many coefficients the environment has, and whether there are lights. */
+     many coefficients the environment has, and whether there are lights. An effect is dropped for reasons that stay as planned, or
+     for what the medium but its Gaussians, metres_per_unit or the format's distances are: only where these differ does the host ask
+     by another plan() whether it would run now. */
   brume_status (*plan)(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state);
   brume_status (*execute)(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame);
   void (*destroy)(void *state); /* state may be NULL */

@@ -218,6 +218,41 @@ static void has_broken_effect(const char *directory)
     library.brume_context_destroy(context);
 }
 
+static const char lamp[] = "{\"brume\": 1, \"medium\": {\"scattering\": 0.1}, \"lights\": [{\"type\": \"point\", "
+                           "\"position\": [0, 0, -5], \"intensity\": 9}]}";
+
+/* Nor are lights that nothing renders dark without a word. */
+static void misses_airlight(const char *directory)
+{
+    char searched[4096];
+    const char *of_lights[] = {"lights: no effect", searched, NULL}, *of_environment[] = {"environment: no effect", searched, NULL};
+    Library library = load("lib/libbrume.so");
+    brume_context context = make_context(&library);
+    snprintf(searched, sizeof searched, "%s/lib/brume", directory);
+    expect_no_plan(&library, context, lamp, of_lights);
+    expect_no_plan(&library, context,
+                   "{\"brume\": 1, \"medium\": {\"visibility\": 100}, \"environment\": {\"sh\": [[1, 1, 1]]}}",
+                   of_environment);
+    expect_plan(&library, context, fog);
+    expect_plan(&library, context,
+                "{\"brume\": 1, \"medium\": {\"absorption\": 0.1}, \"environment\": {\"sh\": [[1, 1, 1]]}}");
+    expect_plan(&library, context,
+                "{\"brume\": 1, \"medium\": {\"scattering\": 0.1}, \"environment\": {\"sh\": [[1, 1, 1]]}, "
+                "\"effects\": {\"multiscatter\": {}}}");
+    library.brume_context_destroy(context);
+}
+
+static void has_broken_airlight(const char *directory)
+{
+    char file[4096];
+    const char *parts[] = {"lights: no effect", file, "refused", NULL};
+    Library library = load("dim/libbrume.so");
+    brume_context context = make_context(&library);
+    snprintf(file, sizeof file, "%s/dim/brume/airlight.so", directory);
+    expect_no_plan(&library, context, lamp, parts);
+    library.brume_context_destroy(context);
+}
+
 int main(int argc, char **argv)
 {
     char directory[4000];
@@ -231,6 +266,10 @@ int main(int argc, char **argv)
         misses_effects(directory);
     else if (strcmp(argv[1], "has_broken_effect") == 0)
         has_broken_effect(directory);
+    else if (strcmp(argv[1], "misses_airlight") == 0)
+        misses_airlight(directory);
+    else if (strcmp(argv[1], "has_broken_airlight") == 0)
+        has_broken_airlight(directory);
     else
         fail(argv[1], "no such case");
     return 0;
