@@ -263,6 +263,101 @@ TEST(AirlightMaps, SumsOfForwardScatteringAgreeWithEachLight)
     EXPECT_LT(e.p95, 3e-3);
 }
 
+// A few wide puffs.
+Json wide_puffs(int count, double depth)
+{
+    std::mt19937 random(41);
+    std::uniform_real_distribution<double> u(0, 1);
+    Json all = Json::array();
+    for (int i = 0; i < count; ++i)
+        all.push_back(gaussian({8 * u(random) - 4, 6 * u(random) - 2, depth - 4 * u(random)}, 0.5, 0.8));
+    return all;
+}
+
+// A beam is narrower than the grid's steps are long, and ends as sharply as it is told.
+TEST(AirlightMaps, NarrowSpotsAreWholeBeams)
+{
+    const Frame frame{Picture(120, 80, 4), Picture(120, 80, 1, 25)};
+    struct Spot {
+        const char *name;
+        double angle, penumbra;
+    };
+    for (const Spot &s :
+         {Spot{"10 degrees", 10, 0.3}, Spot{"20 degrees", 20, 0.1}, Spot{"60 degrees, no penumbra", 60, 0}}) {
+        const Json spot{{"type", "spot"},   {"position", {-5, 2, -9}}, {"direction", {1, -0.1, 0}},
+                        {"angle", s.angle}, {"penumbra", s.penumbra},  {"intensity", 900}};
+        const Json scene = scene_of(wide_puffs(20, -7), Json::array({spot}), {{"scattering", 0.15}, {"g", 0.3}});
+        const Picture exact = airlight_of(cpu(), with(with(scene, "tier", "nodes"), "max_error", 0.0001), frame),
+                      maps = airlight_of(cpu(), with(scene, "tier", "maps"), frame);
+        const Errors e = errors(maps, exact);
+        report(s.name, e);
+        EXPECT_LT(e.p95, 0.01) << s.name;
+        double all = 0, of = 0;
+        for (size_t i = 0; i < maps.data.size(); ++i) {
+            all += maps.data[i];
+            of += exact.data[i];
+        }
+        EXPECT_NEAR(all / of, 1, 0.005) << s.name;
+    }
+}
+
+// A wall that recedes through a bank: what lies before it of the step that it ends grows with the density there, not with
+// its length.
+TEST(AirlightMaps, SurfacesCutClouds)
+{
+    Frame frame{Picture(192, 64, 4), Picture(192, 64, 1)};
+    for (int y = 0; y < frame.depth.height; ++y)
+        for (int x = 0; x < frame.depth.width; ++x)
+            frame.depth.at(x, y)[0] = 6 + 5 * float(x) / float(frame.depth.width);
+    Json bank = Json::array();
+    for (int i = 0; i < 11; ++i)
+        bank.push_back(gaussian({1.2 * i - 6, 0.6 * (i % 3 - 1), -10 - 0.3 * (i % 2)}, 0.55, 0.8));
+    for (int lights : {1, 6}) {
+        Json scene = scene_of(bank, lamps(lights), {{"scattering", 0.3}, {"g", 0.2}});
+        scene["camera"]["vertical_fov"] = 25;
+        const Picture exact = airlight_of(cpu(), with(with(scene, "tier", "nodes"), "max_error", 0.0001), frame);
+        const Errors e = errors(airlight_of(cpu(), with(scene, "tier", "maps"), frame), exact);
+        report("a wall in a bank", e);
+        EXPECT_LT(e.p95, 0.006);
+    }
+}
+
+// Nothing but what the picture shows moves: sums that end there are made anew.
+TEST(AirlightMaps, FollowWhatThePictureShows)
+{
+    const Json scene = with(scene_of(cloud(60, 42), lamps(6)), "tier", "maps");
+    const Options options{{}, {"airlight"}};
+    const Picture color(400, 240, 4), near(400, 240, 1, 5), far(400, 240, 1, 30);
+    const Plan plan(cpu(), scene.dump(), 400, 240, options);
+    plan.execute(color, near, options);
+    const Picture after = plan.execute(color, far, options).airlight,
+                  alone = Plan(cpu(), scene.dump(), 400, 240, options).execute(color, far, options).airlight;
+    EXPECT_EQ(after.data, alone.data);
+}
+
+// Cells are as fine as the frame's Gaussians ask, not those that the plan was made with.
+TEST(AirlightMaps, FollowGaussiansThatShrink)
+{
+    const auto scene = [](const Json &scale) {
+        Json all = Json::array();
+        for (Json g : wide_puffs(20, -8)) {
+            g["scale"] = scale;
+            all.push_back(g);
+        }
+        return with(scene_of(all, lamps(2)), "tier", "maps").dump();
+    };
+    Options options{{}, {"airlight"}};
+    const Picture color(480, 270, 4), depth(480, 270, 1, 30);
+    const Plan plan(cpu(), scene(Json{{"keys", {{1, 0.5}, {2, 1}}}}), color.width, color.height, options);
+    options.frame = 1;
+    plan.execute(color, depth, options);
+    options.frame = 2;
+    const Picture shrunken = plan.execute(color, depth, options).airlight,
+                  planned =
+                      Plan(cpu(), scene(1), color.width, color.height, options).execute(color, depth, options).airlight;
+    EXPECT_EQ(shrunken.data, planned.data);
+}
+
 // More than the grid can tell apart.
 TEST(AirlightMaps, SumsOfManyLightsAreTheSumOfEach)
 {

@@ -96,7 +96,8 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
                                    0};
     if (const brume_status status = services->add_entry(host, &entry); status || !entry.runs)
         return status;
-    State *state = new (std::nothrow) State{request->width, request->height, {share}, makes && request->parameters[1] != 0};
+    State *state = new (std::nothrow)
+        State{request->width, request->height, {share}, makes && request->parameters[1] != 0, nullptr, nullptr, 0};
     if (!state)
         return services->fail(host, BRUME_ERROR_MEMORY, "no memory for the plan's state");
     *out = state;
