@@ -18,6 +18,7 @@ uniform Medium brume_medium;
 uniform Camera brume_camera;
 uniform GridSettings grid;
 uniform ivec2 light_range;
+uniform int whole;
 uniform sampler2D attenuation;
 uniform sampler2D attenuation_frames;
 uniform sampler2D lights;
@@ -53,7 +54,7 @@ void main()
                                    data_texel(slices, k).x));
         return;
     }
-    float reach = reach_around(corner);
+    float reach = whole != 0 ? far_away : reach_around(corner);
     float first = 0.0;
     float from = 0.0;
     float before = 0.0;

@@ -322,17 +322,18 @@ TEST(AirlightMaps, SurfacesCutClouds)
     }
 }
 
-// Nothing but what the picture shows moves: sums that end there are made anew.
+// Nothing but what the picture shows moves: sums that end there go on, and then stay.
 TEST(AirlightMaps, FollowWhatThePictureShows)
 {
     const Json scene = with(scene_of(cloud(60, 42), lamps(6)), "tier", "maps");
     const Options options{{}, {"airlight"}};
     const Picture color(400, 240, 4), near(400, 240, 1, 5), far(400, 240, 1, 30);
     const Plan plan(cpu(), scene.dump(), 400, 240, options);
-    plan.execute(color, near, options);
+    const Picture first = plan.execute(color, near, options).airlight;
     const Picture after = plan.execute(color, far, options).airlight,
                   alone = Plan(cpu(), scene.dump(), 400, 240, options).execute(color, far, options).airlight;
     EXPECT_EQ(after.data, alone.data);
+    EXPECT_EQ(plan.execute(color, near, options).airlight.data, first.data);
 }
 
 // Cells are as fine as the frame's Gaussians ask, not those that the plan was made with.

@@ -75,7 +75,8 @@ constexpr brume_slot gather_slots[] = {fetch("depth"),
 static_assert(std::size(gather_slots) == maps::gather::slot_count);
 
 constexpr brume_constant constants_table[] = {BRUME_GRID_SETTINGS(Constants), BRUME_AIRLIGHT_SETTINGS(Constants),
-                                              BRUME_CONSTANT(Constants, light_range), BRUME_CONSTANT(Constants, reduction)};
+                                              BRUME_CONSTANT(Constants, light_range), BRUME_CONSTANT(Constants, reduction),
+                                              BRUME_CONSTANT(Constants, whole)};
 
 template <size_t Slots> brume_pass_desc pass(const char *name, const brume_slot (&slots)[Slots], int32_t grain)
 {
@@ -129,7 +130,7 @@ uint64_t bytes_of(ivec2 grid)
     return uint64_t(grid.x) * uint64_t(grid.y) * 32;
 }
 
-// The images that a plan's grids have: Gaussians may shrink to a third in later frames; of those of files it knows nothing
+// The images that a plan's grids have: Gaussians may shrink to half in later frames; of those of files it knows nothing
 // yet.
 ivec2 room_for(const GridSettings &s, const brume_plugin_scene &scene, const maps::Sizes &sizes, const Parameters &p)
 {
@@ -275,6 +276,7 @@ brume_status refresh_maps(const brume_services &services, brume_host host, const
     m.maps_pending = m.maps_pending || again;
     m.grid_pending = true;
     m.in_grid = ivec2(0);
+    m.in_front = ivec2(0);
     return BRUME_OK;
 }
 
@@ -291,14 +293,13 @@ public:
         constants_.grid.summed = sums_lights(*frame.scene, state, gathers_orders(state), constants_.grid.cell);
     }
 
-    // Sums go as far as the picture shows, which may change with any frame.
     bool has_sums() const { return constants_.grid.summed; }
     int lights_at_once() const { return constants_.grid.summed ? maps_.kept : most_depths; }
     // Whether there is room for the maps of all lights.
     bool keeps() const { return int(frame_.scene->light_count) <= maps_.kept; }
     brume_status maps_of(int first, int last);
     brume_status density();
-    brume_status lights(int first, int last);
+    brume_status lights(int first, int last, bool whole);
     brume_status gather(const MappedGather &wanted, brume_plugin_image previous, brume_plugin_image previous_error);
 
 private:
@@ -343,12 +344,13 @@ brume_status Run::density()
                          nullptr);
 }
 
-brume_status Run::lights(int first, int last)
+brume_status Run::lights(int first, int last, bool whole)
 {
     namespace slot = maps::lights;
     Constants constants = constants_;
     constants.light_range = ivec2(first, last);
     constants.grid.mapped = keeps() ? 0 : first;
+    constants.whole = whole;
     brume_plugin_image images[slot::slot_count] = {};
     images[slot::attenuation] = maps_.attenuation;
     images[slot::frames] = maps_.frames;
@@ -415,13 +417,16 @@ brume_status gather_by_maps(const brume_services &services, brume_host host, con
         now.first = wanted.first + round * at_once;
         now.last = std::min(now.first + at_once, wanted.last);
         const ivec2 range(now.first, now.last);
-        if (range.x < range.y && (m.in_grid != range || run.has_sums())) {
+        if (range.x < range.y && m.in_grid != range) {
             if (!run.keeps())
                 if (brume_status s = run.maps_of(range.x, range.y))
                     return s;
-            if (brume_status s = run.lights(range.x, range.y))
+            // Sums of a frame in which something moved go as far as its picture shows. In the next they are made whole and
+            // stay, whatever pictures show: no bit of the picture depends on it.
+            const bool whole = !run.has_sums() || m.in_front == range;
+            if (brume_status s = run.lights(range.x, range.y, whole))
                 return s;
-            m.in_grid = range;
+            (whole ? m.in_grid : m.in_front) = range;
         }
         now.environment = wanted.environment && round == 0;
         // Two images in turn, so that the last round writes what is wanted.

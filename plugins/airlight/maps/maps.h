@@ -31,7 +31,8 @@ struct Maps {
     brume_plugin_image frames = nullptr;  // attenuation_frames
     bool maps_pending = false;
     bool grid_pending = false;
-    brume::maths_float::ivec2 in_grid{0};  // the lights whose attenuation grid_lights has
+    brume::maths_float::ivec2 in_grid{0};   // the lights whose attenuation or sums grid_lights has
+    brume::maths_float::ivec2 in_front{0};  // those whose sums it had as far as a frame's picture showed
     maps::Frames placed;
 };
 

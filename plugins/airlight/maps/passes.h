@@ -24,6 +24,7 @@ struct Constants {
     brume::maths_float::ivec2 light_range;  // the lights [x, y); four at most where the grid has no sums
     int32_t reduction;
     int32_t estimate;  // the error is wanted
+    int32_t whole;     // the lights' sums go beyond what the picture shows
 };
 
 namespace attenuation {
