@@ -27,8 +27,7 @@ PURE float mass_before(float part, float before, float here, float behind, float
 {
     float from = min((before * width + here * width_before) / (width + width_before), R(3.0) * min(before, here));
     float to = min((behind * width + here * width_behind) / (width + width_behind), R(3.0) * min(behind, here));
-    float sum = part * (from + part * (R(3.0) * here - R(2.0) * from - to + part * (from + to - R(2.0) * here)));
-    return choose(here > R(0.0), clamp(sum / max(here, R(1e-30)), R(0.0), R(1.0)), part);
+    return choose(here > R(0.0), clamp(risen(part, here, from, to) / max(here, R(1e-30)), R(0.0), R(1.0)), part);
 }
 
 // The same of the step [from, next] of the grid's Gaussians, of which `slope_before` came before, since `earlier`.

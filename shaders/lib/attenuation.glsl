@@ -50,6 +50,12 @@ PURE float attenuation_across(sampler2D attenuation, float column, float row, fl
                mix(value_at(attenuation, column, row + R(1.0)), value_at(attenuation, column + R(1.0), row + R(1.0)), u), v);
 }
 
+// How far a cubic that rises by `step` has risen at w, 0 to 1, with slopes `from` and `to` at its ends.
+PURE float risen(float w, float step, float from, float to)
+{
+    return w * (from + w * (R(3.0) * step - R(2.0) * from - to + w * (from + to - R(2.0) * step)));
+}
+
 // int rho dt of the Gaussians between the light and the point, over their distance; of directional lights itself. A mean density is
 // smooth where the light stands inside a Gaussian, and an integral is not. Outside the map is what is on its edge.
 PURE float attenuation_density(IN(AttenuationFrame) frame, sampler2D attenuation, int side, int nodes, int index, IN(Light) light,
@@ -78,7 +84,7 @@ PURE float attenuation_density(IN(AttenuationFrame) frame, sampler2D attenuation
     float step_behind = choose(node < float(nodes - 2), behind - farther, step);
     float from = min(R(0.5) * (step_before + step), R(3.0) * min(step_before, step));
     float to = min(R(0.5) * (step + step_behind), R(3.0) * min(step, step_behind));
-    float integral = nearer + w * (from + w * (R(3.0) * step - R(2.0) * from - to + w * (from + to - R(2.0) * step)));
+    float integral = nearer + risen(w, step, from, to);
     if (light.type == light_directional)
         return integral;
     return integral / max(place.z, R(1e-6));
