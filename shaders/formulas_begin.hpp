@@ -5,3 +5,4 @@
 #define IN(type) const type &
 #define PURE [[gnu::always_inline]] inline
 using brume::is_finite;
+using brume::most_turns;

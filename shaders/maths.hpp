@@ -8,6 +8,8 @@
 
 namespace brume {
 
+constexpr int most_turns = 0x7fffffff;
+
 inline bool is_finite(float x)
 {
     return (std::bit_cast<uint32_t>(x) & 0x7f800000u) != 0x7f800000u;

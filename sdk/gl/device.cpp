@@ -100,8 +100,9 @@ void Device::report_host_error() const
              "an OpenGL error was pending before this call, and reading it cleared it: " + error_name(error));
 }
 
-bool is_software(const std::string &renderer)
+bool renders_in_software()
 {
+    const std::string renderer = text(GL_RENDERER);
     for (const char *name : {"llvmpipe", "softpipe", "swrast", "SWR", "SwiftShader", "Software"})
         if (renderer.find(name) != std::string::npos)
             return true;
@@ -116,13 +117,13 @@ bool gl_is_hardware(const GlOptions &options)
 {
     using namespace gl;
     if (options.borrowed)
-        return why_unusable(ContextQuery()).empty() && !is_software(text(GL_RENDERER));
+        return why_unusable(ContextQuery()).empty() && !renders_in_software();
     static const bool owned = [] {
         try {
             GlThread thread;
-            std::string renderer;
-            thread.invoke([&] { renderer = text(GL_RENDERER); });
-            return !is_software(renderer);
+            bool software = true;
+            thread.invoke([&] { software = renders_in_software(); });
+            return !software;
         } catch (const std::exception &) {
             return false;
         }

@@ -39,6 +39,7 @@ private:
     std::optional<StateGuard> guard_;
 };
 
-bool is_software(const std::string &renderer);
+// Of the current context.
+bool renders_in_software();
 
 }  // namespace brume::gl

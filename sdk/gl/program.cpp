@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "scene/scene_constants.h"
+#include "gl/device.h"
 #include "gl/program_source.h"
 
 namespace brume::gl {
@@ -64,10 +65,11 @@ GlProgram::~GlProgram()
 
 void GlProgram::link(const std::string &source, const std::string &defines)
 {
-    const ProgramSource assembled = assemble_program(name_, source, defines);
-    const char *text = assembled.text.c_str();
+    const std::string limit = renders_in_software() ? "#define BRUME_MOST_TURNS 65535\n" : "";
+    const ProgramSource assembled = assemble_program(name_, source, limit + defines);
+    const char *const lines = assembled.text.c_str();
     const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-    glShaderSource(shader, 1, &text, nullptr);
+    glShaderSource(shader, 1, &lines, nullptr);
     glCompileShader(shader);
     GLint compiled = 0, linked = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);

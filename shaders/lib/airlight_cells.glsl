@@ -3,10 +3,12 @@
 // Between two edges the mass, its centroid and the transmittance to the camera are exact (erf and exp of each Gaussian at the
 // edges), whatever the density does there, and only the light is taken as it is at the centroid. That is of second order, but
 // costs (edges + cells) per Gaussian where parts cost Gaussians squared, and what depends on the view serves all lights.
-// Where the light varies too much from cell to cell, a second round moves the edges to there.
+// Where the light varies too much from cell to cell, a second round moves the edges to there, and a third takes as many cells
+// as the second's error asks for, so many at a time.
 
-const int max_cells = 32;
+const int max_cells = 32;  // at a time
 const int coarse_cells = 16;
+const int most_batches = 32;
 
 // Edge k of `count` + 1 over the ray: most within the Gaussians, a few before and behind in growing steps.
 PURE float coarse_edge(vec2 blobs, float end, int k)
@@ -25,13 +27,14 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
 {
     bool has_terms = medium.constant > R(0.0) || medium.term_count > 0;
     vec3 extinction = medium.scattering + medium.absorption;
-    float mean_extinction = (extinction.x + extinction.y + extinction.z) / R(3.0);
+    // In short lists the tails that a ray passes are what dim pixels have.
+    bool abridged = sight.count > 64;
 
     vec2 blobs = vec2(far_away, R(0.0));
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
         Profile profile = sight_profile(medium, camera, g, sight.direction);
-        if (passed_by(medium, g, profile))
+        if (abridged && passed_by(medium, g, profile))
             continue;
         float middle = profile.middle;
         blobs = vec2(min(blobs.x, middle - R(3.0) / g.scale), max(blobs.y, middle + R(3.0) / g.scale));
@@ -50,7 +53,7 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     for (int i = 0; i < sight.count; ++i) {
         Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
         Profile profile = sight_profile(medium, camera, g, sight.direction);
-        if (passed_by(medium, g, profile))
+        if (abridged && passed_by(medium, g, profile))
             continue;
         float before = erf(-profile.scale * profile.middle);
         float depth = R(0.886226925453) * profile_length(profile);
@@ -63,7 +66,11 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     float all_lit = R(1e-30);
     for (int k = 0; k < coarse_cells; ++k) {
         // Differences of erf times a dense Gaussian may round below nothing.
-        mass[k] = exp(-clamp(mean_extinction * p[k], R(0.0), R(80.0))) * one_minus_exp(mean_extinction * max(p[k + 1] - p[k], R(0.0)));
+        float dp = min(max(p[k + 1] - p[k], R(0.0)), density_limit);
+        vec3 tau = extinction * dp;
+        vec3 seen = dp * transmittance(medium, clamp(p[k], R(0.0), density_limit)) * medium.scattering *
+                    vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z));
+        mass[k] = min(seen.x + seen.y + seen.z, radiance_limit);
         lit[k] = R(0.0);
         all_mass += mass[k];
     }
@@ -73,10 +80,14 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
             continue;
         Aspect aspect = aspect_of(light, sight.direction);
         float h = max(aspect.height, light.radius);
+        vec2 cone = lit_interval(light, sight.direction, end, light.cos_outer);
         for (int k = 0; k < coarse_cells; ++k) {
-            float width = knot[k + 1] - knot[k];
-            float angle = atan(h * width, h * h + (knot[k] - aspect.foot) * (knot[k + 1] - aspect.foot));
-            float share = mass[k] * angle / (h * max(width, R(1e-20)));
+            float from = max(knot[k], cone.x);
+            float to = min(knot[k + 1], cone.y);
+            if (from >= to)
+                continue;
+            float angle = atan(h * (to - from), h * h + (from - aspect.foot) * (to - aspect.foot));
+            float share = mass[k] * angle / (h * max(knot[k + 1] - knot[k], R(1e-20)));
             lit[k] += share;
             all_lit += share;
         }
@@ -87,108 +98,130 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
     Airlight total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
     int knots = coarse_cells;
     int steps = clamp(settings.cells, 1, max_cells);
-    for (int round = 0; round < 2; ++round) {
+    int batches = 1;
+    for (int round = 0; round < 3; ++round) {
         float whole = R(1e-30);
         for (int k = 0; k < knots; ++k)
             whole += weight[k];
         float edge[max_cells + 1];
-        float to[max_cells + 1];       // P there
-        float moment[max_cells + 1];   // int rho (t - blobs.x) dt
-        vec3 coloured[max_cells + 1];  // int colour rho dt
+        float error_of[max_cells];
         int k = 0;
         float passed = R(0.0);
-        for (int j = 0; j <= steps; ++j) {
-            float target = whole * float(j) / float(steps);
-            while (k < knots - 1 && passed + weight[k] < target) {
-                passed += weight[k];
-                ++k;
-            }
-            edge[j] = mix(knot[k], knot[k + 1], clamp((target - passed) / max(weight[k], R(1e-30)), R(0.0), R(1.0)));
-            if (j == steps)
-                edge[j] = end;
-            to[j] = density_integral(medium, sight.direction, edge[j]);
-            moment[j] = R(0.0);
-            coloured[j] = vec3(to[j]);
-        }
-        for (int i = 0; i < sight.count; ++i) {
-            Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
-            Profile profile = sight_profile(medium, camera, g, sight.direction);
-            if (passed_by(medium, g, profile))
-                continue;
-            float before = erf(-profile.scale * profile.middle);
-            float depth = R(0.886226925453) * profile_length(profile);
-            float arm = profile.middle - blobs.x;
-            for (int j = 0; j <= steps; ++j) {
-                float x = min(profile.scale * abs(edge[j] - profile.middle), gaussian_limit);
-                float part = depth * (erf(profile.scale * (edge[j] - profile.middle)) - before);
-                to[j] += part;
-                moment[j] += arm * part - R(0.5) * profile_length(profile) / profile.scale * exp(-x * x);
-                coloured[j] += g.color * part;
-            }
-        }
-        // From here on: the centroid in `moment`, what is visible of the mass in `coloured`, the errors in `weight`.
-        for (int j = 0; j < steps; ++j) {
-            float dp = max(to[j + 1] - to[j], R(0.0));
-            float terms = density_integral(medium, sight.direction, edge[j + 1]) - density_integral(medium, sight.direction, edge[j]);
-            // The terms' own centroid is near enough to the middle.
-            float center = moment[j + 1] - moment[j] + terms * (R(0.5) * (edge[j] + edge[j + 1]) - blobs.x);
-            float place = blobs.x + center / max(dp, R(1e-30));
-            // The moments of Gaussians of 1e30 m overflow.
-            moment[j] = clamp(is_finite(place) ? place : R(0.5) * (edge[j] + edge[j + 1]), edge[j], edge[j + 1]);
-            vec3 tau = extinction * dp;
-            // The cross-sections last: apart from what they attenuate they overflow.
-            coloured[j] = max(coloured[j + 1] - coloured[j], vec3(R(0.0))) *
-                          vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z)) *
-                          transmittance(medium, clamp(to[j], R(0.0), density_limit)) * medium.scattering;
-            weight[j] = R(0.0);
-        }
         total = Airlight(vec3(R(0.0)), vec3(R(0.0)));
-        for (int l = first_light; l < last_light; ++l) {
-            Light light = light_at(lights, l);
-            Aspect aspect = aspect_of(light, sight.direction);
-            Surroundings around = open_surroundings();
-            if (settings.orders == orders_all)
-                around = surroundings_of(surroundings, l);
-            ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, settings.shadowed, l, sight.direction, end);
-            vec3 before = vec3(R(0.0));
-            vec3 last = vec3(R(0.0));
+        for (int batch = 0; batch < batches; ++batch) {
+            float to[max_cells + 1];       // P there
+            float moment[max_cells + 1];   // int rho (t - blobs.x) dt
+            vec3 coloured[max_cells + 1];  // int colour rho dt
+            for (int j = 0; j <= steps; ++j) {
+                if (j == 0 && batch > 0) {
+                    edge[0] = edge[steps];
+                } else {
+                    float target = whole * float(batch * steps + j) / float(batches * steps);
+                    while (k < knots - 1 && passed + weight[k] < target) {
+                        passed += weight[k];
+                        ++k;
+                    }
+                    edge[j] = mix(knot[k], knot[k + 1], clamp((target - passed) / max(weight[k], R(1e-30)), R(0.0), R(1.0)));
+                }
+                if (j == steps && batch == batches - 1)
+                    edge[j] = end;
+                to[j] = density_integral(medium, sight.direction, edge[j]);
+                moment[j] = R(0.0);
+                coloured[j] = vec3(to[j]);
+            }
+            for (int i = 0; i < sight.count; ++i) {
+                Gaussian g = listed_gaussian(gaussians, tile_gaussians, sight, i);
+                Profile profile = sight_profile(medium, camera, g, sight.direction);
+                if (abridged && passed_by(medium, g, profile))
+                    continue;
+                float before = erf(-profile.scale * profile.middle);
+                float depth = R(0.886226925453) * profile_length(profile);
+                float arm = profile.middle - blobs.x;
+                for (int j = 0; j <= steps; ++j) {
+                    float x = min(profile.scale * abs(edge[j] - profile.middle), gaussian_limit);
+                    float part = depth * (erf(profile.scale * (edge[j] - profile.middle)) - before);
+                    to[j] += part;
+                    moment[j] += arm * part - R(0.5) * profile_length(profile) / profile.scale * exp(-x * x);
+                    coloured[j] += g.color * part;
+                }
+            }
+            // From here on: the centroid in `moment`, what is visible of the mass in `coloured`.
             for (int j = 0; j < steps; ++j) {
-                float t = moment[j];
-                vec3 f = vec3(R(0.0));
-                float strength = lit_strength(medium, light, aspect, sight.direction, t);
-                if (strength > R(0.0) && ray.kind != 0)
-                    strength *= lit_share(shadow_maps, ray, edge[j], edge[j + 1]);
-                if (strength > R(0.0) || (settings.orders == orders_all && (light.type == light_spot || ray.kind != 0))) {
-                    vec3 point = t * sight.direction;
-                    float depth = terms_to_light(medium, light, point) + shadow_density(light_gaussians, camera, l, light, point);
-                    f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
-                    if (settings.orders == orders_all)
-                        f += rescattered_strength(medium, camera, light, aspect, around, sight.direction, t,
-                                                  clamp(depth, R(0.0), density_limit));
+                float dp = max(to[j + 1] - to[j], R(0.0));
+                float terms = density_integral(medium, sight.direction, edge[j + 1]) - density_integral(medium, sight.direction, edge[j]);
+                // The terms' own centroid is near enough to the middle.
+                float center = moment[j + 1] - moment[j] + terms * (R(0.5) * (edge[j] + edge[j + 1]) - blobs.x);
+                float place = blobs.x + center / max(dp, R(1e-30));
+                // The moments of Gaussians of 1e30 m overflow.
+                moment[j] = clamp(is_finite(place) ? place : R(0.5) * (edge[j] + edge[j + 1]), edge[j], edge[j + 1]);
+                vec3 tau = extinction * dp;
+                // The cross-sections last: apart from what they attenuate they overflow.
+                coloured[j] = max(coloured[j + 1] - coloured[j], R(-1e-5) * coloured[j]) *
+                              vec3(mean_exponential(tau.x), mean_exponential(tau.y), mean_exponential(tau.z)) *
+                              transmittance(medium, clamp(to[j], R(0.0), density_limit)) * medium.scattering;
+                error_of[j] = R(0.0);
+            }
+            for (int l = first_light; l < last_light; ++l) {
+                Light light = light_at(lights, l);
+                Aspect aspect = aspect_of(light, sight.direction);
+                Surroundings around = open_surroundings();
+                if (settings.orders == orders_all)
+                    around = surroundings_of(surroundings, l);
+                ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, settings.shadowed, l, sight.direction, end);
+                vec2 cone = lit_interval(light, sight.direction, end, light.cos_outer);
+                vec3 before = vec3(R(0.0));
+                vec3 last = vec3(R(0.0));
+                for (int j = 0; j < steps; ++j) {
+                    float from = max(edge[j], cone.x);
+                    float upto = min(edge[j + 1], cone.y);
+                    vec3 f = vec3(R(0.0));
+                    float t = moment[j];
+                    float strength = R(0.0);
+                    if (from < upto) {
+                        t = clamp(t, from, upto);
+                        strength = (upto - from) / (edge[j + 1] - edge[j]) * lit_strength(medium, light, aspect, sight.direction, t);
+                        if (ray.kind != 0)
+                            strength *= lit_share(shadow_maps, ray, edge[j], edge[j + 1]);
+                    }
+                    if (strength > R(0.0) || (settings.orders == orders_all && (light.type == light_spot || ray.kind != 0))) {
+                        vec3 point = t * sight.direction;
+                        float depth = terms_to_light(medium, light, point) + shadow_density(light_gaussians, camera, l, light, point);
+                        f = min(strength * light.intensity, vec3(radiance_limit)) * transmittance(medium, min(depth, density_limit));
+                        if (settings.orders == orders_all)
+                            f += rescattered_strength(medium, camera, light, aspect, around, sight.direction, t,
+                                                      clamp(depth, R(0.0), density_limit));
+                    }
+                    total.radiance += min(f * coloured[j], vec3(radiance_limit));
+                    // The first and the last cell turn like their neighbours.
+                    for (int c = j == 2 ? 0 : j - 1; c < (j == steps - 1 ? steps : j) && j > 1; ++c) {
+                        vec3 error = min(abs((f - R(2.0) * last + before) * coloured[c]), vec3(radiance_limit)) / R(5.0);
+                        total.error += R(1.2) * error;
+                        error_of[c] += error.x + error.y + error.z;
+                    }
+                    before = last;
+                    last = f;
                 }
-                total.radiance += min(f * coloured[j], vec3(radiance_limit));
-                if (j > 1) {
-                    vec3 error = min(abs(f - R(2.0) * last + before) * coloured[j - 1], vec3(radiance_limit)) / R(5.0);
-                    total.error += R(1.2) * error;
-                    weight[j - 1] += error.x + error.y + error.z;
-                }
-                before = last;
-                last = f;
             }
         }
         float error = total.error.x + total.error.y + total.error.z;
-        if (error <= R(1.8) * settings.tolerance * (total.radiance.x + total.radiance.y + total.radiance.z))
+        float allowed = R(1.8) * settings.tolerance * (total.radiance.x + total.radiance.y + total.radiance.z);
+        if (error <= allowed || round == 2)
             return total;
         // Of second order: best with steps in the ratio of the cube roots of the cells' errors.
         knots = steps;
-        float beside = R(0.0);
         for (int j = 0; j < steps; ++j) {
-            float e = max(max(weight[j], beside) / error, R(1e-3) / float(steps));
-            beside = weight[j];
+            float beside = max(error_of[max(j - 1, 0)], error_of[min(j + 1, steps - 1)]);
+            float e = max(max(error_of[j], beside) / error, R(1e-3) / float(steps));
             knot[j] = edge[j];
             weight[j] = exp(log(e) / R(3.0));
         }
         knot[steps] = end;
+        if (round == 1) {
+            // Fewer where a driver would end the loops over lists, which are about as long from lights.
+            float turns = float(max_cells + 1) * float(1 + last_light - first_light) * float(2 + sight.count);
+            float most = clamp(float(most_turns) / turns - R(3.0), R(1.0), float(most_batches));
+            batches = int(clamp(sqrt(error / max(allowed, R(1e-30))) + R(1.0), R(1.0), most));
+        }
     }
     return total;
 }

@@ -28,4 +28,10 @@ bool is_finite(float x)
     return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
 }
 
+// How many turns of its loops a pixel may take: more end early in Mesa's software GL.
+#ifndef BRUME_MOST_TURNS
+#define BRUME_MOST_TURNS 0x7fffffff
+#endif
+const int most_turns = BRUME_MOST_TURNS;
+
 uniform ivec2 brume_grid;

@@ -14,7 +14,7 @@ Fineness fineness_of(double max_error)
     if (max_error > 0.05)
         return {0.9, 0.8, 48, 64, 24, 0.4, 0.5, 0.015};
     if (max_error >= 0.005)
-        return {0.5, 2, 64, 128, 64, 0.2, 0.2, 0.0018};
+        return {0.5, 2, 64, 128, 64, 0.2, 0.2, 0.0016};
     return {0.35, 2.8, 128, 256, 64, 0.1, 0.12, 0.0015};
 }
 
