@@ -216,8 +216,8 @@ TEST_F(HostTextures, FramesAskLittle)
         bool trusted;
         int most;
     };
-    for (const Case &one : {Case{BRUME_GL_STATE_PRESERVE, false, 51}, Case{BRUME_GL_STATE_PRESERVE, true, 27},
-                            Case{BRUME_GL_STATE_OWNED, false, 29}, Case{BRUME_GL_STATE_OWNED, true, 5}}) {
+    for (const Case &one : {Case{BRUME_GL_STATE_PRESERVE, false, 39}, Case{BRUME_GL_STATE_PRESERVE, true, 24},
+                            Case{BRUME_GL_STATE_OWNED, false, 6}, Case{BRUME_GL_STATE_OWNED, true, 3}}) {
         Plan plan = make_plan(borrowed(one.state));
         brume_image images[] = {texture_image(in), texture_image(z, 1), texture_image(out)};
         for (brume_image &image : images) {
