@@ -7,6 +7,7 @@
 #include <brume/brume_plugin.h>
 
 #include "maths.hpp"
+#include "scene_arrays.hpp"
 
 namespace brume {
 namespace maths_float {

@@ -107,8 +107,8 @@ brume_status Planner::explain_orders()
 brume_status Planner::plan_shadows()
 {
     uint32_t brought = 0, made = 0;
-    for (uint32_t l = 0; l < scene_.light_count; ++l)
-        if (const brume_plugin_light &light = scene_.lights[l]; light.shadow_kind > 0)
+    for (const brume_plugin_light &light : brume::lights_in(scene_))
+        if (light.shadow_kind > 0)
             ++(light.shadow_screen > 0 ? made : brought);
     if (brought > 0 && !request_.layers[layer_shadow])
         if (brume_status s =

@@ -66,8 +66,9 @@ Encounters encounters(const brume_plugin_scene &scene, int width, int height)
     const Medium medium = medium_of(scene);
     const uint32_t step = tried_step(scene);
     std::vector<Sphere> spheres;
-    for (uint32_t i = 0; i < scene.gaussian_count; i += step) {
-        const Gaussian g = gaussian_of(scene.gaussians[i]);
+    const auto gaussians = brume::gaussians_in(scene);
+    for (size_t i = 0; i < gaussians.size(); i += step) {
+        const Gaussian g = gaussian_of(gaussians[i]);
         spheres.push_back({g.center, gaussian_reach(medium, g)});
     }
     const auto &c = *scene.camera;
@@ -78,8 +79,9 @@ Encounters encounters(const brume_plugin_scene &scene, int width, int height)
     for (const vec3 &direction : rays) {
         const Met seen = met(spheres, vec3(0), direction, tile_spread);
         sum.of_sight += seen.count;
-        for (uint32_t l = 0; l < scene.light_count && seen.count > 0; ++l) {
-            const brume_plugin_light &light = scene.lights[l];
+        if (!(seen.count > 0))
+            continue;
+        for (const brume_plugin_light &light : brume::lights_in(scene)) {
             const vec3 point = seen.distance * direction, position(light.position[0], light.position[1], light.position[2]);
             const vec3 to_light = light.type == BRUME_LIGHT_DIRECTIONAL
                                       ? -vec3(light.direction[0], light.direction[1], light.direction[2])

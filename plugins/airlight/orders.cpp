@@ -18,8 +18,9 @@ double gaussians_depth(const brume_plugin_scene &scene, vec3 direction, double d
 {
     const uint32_t step = tried_step(scene);
     double sum = 0;
-    for (uint32_t i = 0; i < scene.gaussian_count; i += step) {
-        const Gaussian g = gaussian_of(scene.gaussians[i]);
+    const auto gaussians = brume::gaussians_in(scene);
+    for (size_t i = 0; i < gaussians.size(); i += step) {
+        const Gaussian g = gaussian_of(gaussians[i]);
         if (g.scale * length(cross(direction, g.center)) < most_radii)
             sum += step * profile_depth(profile_along(g, vec3(0), direction), 0, distance);
     }

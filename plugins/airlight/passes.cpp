@@ -104,7 +104,7 @@ public:
 private:
     brume_plugin_image product(Product of, uint32_t index = 0) const
     {
-        const brume_plugin_product &product = frame_.products[of];
+        const brume_plugin_product &product = brume::products_in(frame_)[of];
         return index < product.image_count ? product.images[index] : nullptr;
     }
     brume_status gather(const Constants &constants, brume_plugin_image radiance, brume_plugin_image error,

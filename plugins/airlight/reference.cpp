@@ -46,8 +46,8 @@ brume_status gather_reference_rows(const brume_plugin_rows *call, int32_t first,
                               &error = slots[gather::error], &distances = slots[gather::distances];
     const Camera camera = camera_of(scene);
     std::vector<Gaussian> gaussians;
-    for (uint32_t i = 0; i < scene.gaussian_count; ++i)
-        gaussians.push_back(gaussian_of(scene.gaussians[i]));
+    for (const brume_plugin_gaussian &g : brume::gaussians_in(scene))
+        gaussians.push_back(gaussian_of(g));
     std::vector<Light> lights;
     const Data light_data = lights_of(scene);
     for (uint32_t i = 0; i < scene.light_count; ++i)

@@ -58,7 +58,8 @@ struct State {
 // An image of a product that may have none.
 inline brume_plugin_image image_of(const brume_plugin_frame &frame, Use use)
 {
-    return frame.products[use].image_count ? frame.products[use].images[0] : nullptr;
+    const brume_plugin_product &product = brume::products_in(frame)[use];
+    return product.image_count ? product.images[0] : nullptr;
 }
 
 std::string_view pass_text(std::string_view name);

@@ -109,17 +109,16 @@ double gaussians_on_the_way(const brume_plugin_scene &scene)
         return scene.gaussian_count;
     const Medium medium = medium_of(scene);
     vec3 low(1e30), high(-1e30);
-    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-        const vec3 center = gaussian_of(scene.gaussians[i]).center;
+    for (const brume_plugin_gaussian &g : brume::gaussians_in(scene)) {
+        const vec3 center = gaussian_of(g).center;
         low = min(low, center);
         high = max(high, center);
     }
     const double across = length(high - low);
     double sum = 0;
-    for (uint32_t l = 0; l < scene.light_count; ++l)
-        for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-            const brume_plugin_light &light = scene.lights[l];
-            const Gaussian g = gaussian_of(scene.gaussians[i]);
+    for (const brume_plugin_light &light : brume::lights_in(scene))
+        for (const brume_plugin_gaussian &given : brume::gaussians_in(scene)) {
+            const Gaussian g = gaussian_of(given);
             const vec3 position(light.position[0], light.position[1], light.position[2]);
             const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
             const double reach = gaussian_reach(medium, g),
@@ -239,9 +238,10 @@ brume_status Planner::plan_method()
 
 bool Planner::has_shadows() const
 {
-    return std::any_of(scene_.lights, scene_.lights + scene_.light_count, [&](const brume_plugin_light &light) {
-        return light.shadow_kind > 0 && (light.shadow_screen > 0 || request_.layers[layer_shadow]);
-    });
+    for (const brume_plugin_light &light : brume::lights_in(scene_))
+        if (light.shadow_kind > 0 && (light.shadow_screen > 0 || request_.layers[layer_shadow]))
+            return true;
+    return false;
 }
 
 brume_status Planner::plan_groups(double pixels, double of_light)

@@ -90,12 +90,12 @@ template <class Value> bool changes(std::vector<float> &values, size_t count, Va
 int scene_without(const brume_plugin_scene &scene)
 {
     int without = maths::without_suns | maths::without_spots;
-    for (uint32_t l = 0; l < scene.light_count; ++l) {
-        if (scene.lights[l].surfaces == float(BRUME_SURFACES_UNLIT))
+    for (const brume_plugin_light &light : brume::lights_in(scene)) {
+        if (light.surfaces == float(BRUME_SURFACES_UNLIT))
             continue;
-        if (int(scene.lights[l].type) == maths::light_directional)
+        if (int(light.type) == maths::light_directional)
             without &= ~maths::without_suns;
-        if (int(scene.lights[l].type) == maths::light_spot)
+        if (int(light.type) == maths::light_spot)
             without &= ~maths::without_spots;
     }
     const brume_plugin_medium &m = *scene.medium;
@@ -135,10 +135,13 @@ public:
 private:
     brume_plugin_image product(Product of, uint32_t index = 0) const
     {
-        const brume_plugin_product &product = frame_.products[of];
+        const brume_plugin_product &product = brume::products_in(frame_)[of];
         return index < product.image_count ? product.images[index] : nullptr;
     }
-    bool lights_surfaces(uint32_t light) const { return scene_.lights[light].surfaces != float(BRUME_SURFACES_UNLIT); }
+    bool lights_surfaces(uint32_t light) const
+    {
+        return brume::lights_in(scene_)[light].surfaces != float(BRUME_SURFACES_UNLIT);
+    }
     brume_plugin_image group_of(uint32_t light) const
     {
         const brume_plugin_image *groups = frame_.layers[layer_light_group].of_lights;

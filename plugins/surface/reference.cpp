@@ -29,8 +29,8 @@ struct World {
         : medium(medium_of(*call.scene)), camera(camera_of(*call.scene)),
           around(static_cast<const Constants *>(call.constants)->settings)
     {
-        for (int i = 0; i < around.gaussian_count; ++i)
-            gaussians.push_back(gaussian_of(call.scene->gaussians[i]));
+        for (const brume_plugin_gaussian &g : brume::gaussians_in(*call.scene))
+            gaussians.push_back(gaussian_of(g));
         const Data data = lights_of(*call.scene);
         for (int i = 0; i < around.light_count; ++i)
             lights.push_back(light_at(data.texture(), i));

@@ -106,8 +106,9 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
     State &state = *static_cast<State *>(opaque);
     state.constants.world = frame->layers[layer_normal].kind == BRUME_LAYER_WORLD;
     state.constants.masked = frame->layers[layer_mask].image != nullptr;
+    const brume_plugin_image density = brume::products_in(*frame)[0].images[0];
     const brume_plugin_image images[] = {
-        frame->color,  frame->layers[layer_normal].image, frame->layers[layer_mask].image, frame->products[0].images[0],
+        frame->color,  frame->layers[layer_normal].image, frame->layers[layer_mask].image, density,
         frame->output, frame->layers[layer_rim].image};
     return services->run(host, state.pass, images, &state.constants, state.width, state.height, nullptr);
 }

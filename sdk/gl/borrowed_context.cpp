@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cstring>
 
+#include "gl/error.h"
+
 namespace brume::gl {
 namespace {
 
@@ -43,14 +45,15 @@ std::string BorrowedContext::why_not_current() const
     return "";
 }
 
-// A label is asked only of an object that exists: else the host would find an error in its debug log.
+// Where there is no such object, the question is an error, and so is the host's call.
 bool BorrowedContext::is_marked() const
 {
-    if (!glIsProgramPipeline(marker_))
-        return false;
     char label[96] = {};
     glGetObjectLabel(GL_PROGRAM_PIPELINE, marker_, sizeof label, nullptr, label);
-    return label_ == label;
+    if (label_ == label)
+        return true;
+    take_error();
+    return false;
 }
 
 }  // namespace brume::gl

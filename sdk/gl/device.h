@@ -18,6 +18,8 @@ public:
     Device(const GlOptions &options, const Log &log);
 
     bool borrowed() const { return borrowed_ != nullptr; }
+    // Whether others use the context too.
+    bool shared() const { return borrowed() && options_.state != BRUME_GL_STATE_OWNED; }
     const std::shared_ptr<const BorrowedContext> &borrowed_context() const { return borrowed_; }
     const std::string &renderer() const { return renderer_; }
 

@@ -1,6 +1,7 @@
 #include <array>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -20,6 +21,8 @@
 namespace brume {
 namespace gl {
 namespace {
+
+constexpr size_t most_remembered = 256;  // textures
 
 uint32_t pixel_of(GLenum format)
 {
@@ -72,7 +75,16 @@ public:
                      const brume_plugin_scene &scene, void *user, const Watch *watch) override;
 
 private:
-    HostTexture look_at(const brume_image &image, const std::string &what);
+    struct Seen {
+        HostTexture texture;
+        uint64_t work;          // the invoke() that looked at it last
+        bool complete = false;  // as far as was asked
+        bool stays_complete = false;
+    };
+
+    // copied: the texture itself is written or copied, not sampled.
+    HostTexture look_at(const brume_image &image, const std::string &what, bool copied);
+    bool look_again(const brume_image &image, const std::string &what, Seen &seen);
     bool stores_round_to_nearest();
     std::shared_ptr<GlImage> readable(const brume_image &image, int32_t channels);
     std::shared_ptr<GlImage> uploaded(const brume_image &image, int32_t channels);
@@ -86,7 +98,8 @@ private:
     std::map<std::tuple<std::string, std::string, std::string>, std::shared_ptr<GlProgram>> programs_;
     std::optional<Converter> converter_;
     Samplers samplers_;
-    std::map<GLuint, HostTexture> seen_;  // in this invoke()
+    std::map<GLuint, Seen> seen_;
+    uint64_t work_ = 0;
     bool direct_half_stores_ = false;
 };
 
@@ -121,7 +134,9 @@ GlBackend::~GlBackend()
 void GlBackend::invoke(const std::function<void()> &work)
 {
     device_.invoke([&] {
-        seen_.clear();
+        ++work_;
+        if (seen_.size() > most_remembered)
+            seen_.clear();
         work();
         disposal_->collect();
     });
@@ -134,16 +149,41 @@ std::unique_ptr<FrameTimer> GlBackend::create_timer()
     return std::make_unique<GlTimer>(disposal_);
 }
 
-// Each question to the driver may wait for its thread, so a frame asks once of each texture.
-HostTexture GlBackend::look_at(const brume_image &image, const std::string &what)
+// Each question to the driver may wait for its thread, so a frame looks at each texture once, and asks of one that it knows
+// only what may have changed.
+HostTexture GlBackend::look_at(const brume_image &image, const std::string &what, bool copied)
 {
     if (image.kind == BRUME_IMAGE_GL_TEXTURE_TRUSTED)
         return trusted(image, what);
     auto found = seen_.find(image.gl_texture);
+    if (found != seen_.end() && found->second.work != work_ && !look_again(image, what, found->second))
+        seen_.erase(std::exchange(found, seen_.end()));
     if (found == seen_.end())
-        found = seen_.emplace(image.gl_texture, inspect(image.gl_texture, what, device_.guard())).first;
-    require_size(found->second, image, what);
-    return found->second;
+        found = seen_.emplace(image.gl_texture, Seen{inspect(image.gl_texture, what, device_.guard()), work_}).first;
+    Seen &seen = found->second;
+    require_size(seen.texture, image, what);
+    if (copied && !seen.complete) {
+        seen.stays_complete = require_complete(seen.texture, what);
+        seen.complete = true;
+    }
+    return seen.texture;
+}
+
+// Whether it is the texture of earlier frames, as far as that can be told. In a context that nobody else uses nobody changes
+// its parameters either.
+bool GlBackend::look_again(const brume_image &image, const std::string &what, Seen &seen)
+{
+    const brume_image whole = whole_of(image);
+    if (seen.texture.width != whole.width || seen.texture.height != whole.height || !has_format(seen.texture))
+        return false;
+    if (device_.shared()) {
+        if (!has_size(seen.texture))
+            return false;
+        require_plain_sampling(seen.texture, what);
+        seen.complete = seen.stays_complete;
+    }
+    seen.work = work_;
+    return true;
 }
 
 std::shared_ptr<Image> GlBackend::create_image(int32_t width, int32_t height, int32_t channels, uint32_t pixel)
@@ -183,20 +223,20 @@ void GlBackend::check(const brume_image &image, const char *what, bool writable)
         throw Error(BRUME_ERROR_UNSUPPORTED, label +
                                                  ": a GL texture was given to a context of BRUME_GL_OWNED; expected host "
                                                  "memory, or a context of BRUME_GL_BORROWED");
-    const HostTexture texture = look_at(image, label);
+    const HostTexture texture = look_at(image, label, writable || is_part(image));
     if (writable)
         require_writable(texture, int32_t(image.channels), label);
 }
 
 uint32_t GlBackend::pixel(const brume_image &image)
 {
-    return is_texture(image) ? pixel_of(look_at(image, "output").format) : image.pixel;
+    return is_texture(image) ? pixel_of(look_at(image, "output", true).format) : image.pixel;
 }
 
 // A texture of the host's as it is, of which the image may be a part.
 std::shared_ptr<GlImage> GlBackend::readable(const brume_image &image, int32_t channels)
 {
-    const HostTexture texture = look_at(image, name_of(channels));
+    const HostTexture texture = look_at(image, name_of(channels), is_part(image));
     require_readable(texture, channels, name_of(channels));
     auto wrapped = wrap(texture);
     if (image.kind == BRUME_IMAGE_GL_TEXTURE_TRUSTED)
@@ -242,7 +282,7 @@ std::shared_ptr<Image> GlBackend::begin_output(const brume_image &image, int32_t
 {
     device_.guard();
     if (is_texture(image)) {
-        const HostTexture texture = look_at(image, "output");
+        const HostTexture texture = look_at(image, "output", true);
         require_writable(texture, channels, "output");
         auto wrapped = wrap(texture);
         const uint32_t pixel = pixel_of(texture.format);
@@ -260,7 +300,7 @@ int64_t GlBackend::finish_output(const brume_image &image, Image &written)
     const auto &from = static_cast<const GlImage &>(written);
     if (is_texture(image)) {
         if (from.texture != image.gl_texture)
-            bring(from, all_of(from), *wrap(look_at(image, "output")), rectangle_of(image));
+            bring(from, all_of(from), *wrap(look_at(image, "output", true)), rectangle_of(image));
     } else if (from.format == image_format(from.channels, image.pixel)) {
         download(from, image, guard);
     } else {
@@ -273,7 +313,7 @@ int64_t GlBackend::finish_output(const brume_image &image, Image &written)
 
 int64_t GlBackend::clamped(const brume_image &written)
 {
-    const bool clamps = is_texture(written) && is_packed(look_at(written, "output").format);
+    const bool clamps = is_texture(written) && is_packed(look_at(written, "output", true).format);
     return clamps || pixel(written) == BRUME_PIXEL_F16 ? not_counted : 0;
 }
 
@@ -282,7 +322,8 @@ int64_t GlBackend::copy(const brume_image &from, const brume_image &to)
     device_.guard();
     if (!is_texture(from) || !is_texture(to))
         return finish_output(to, *import(from, 4));
-    bring(*readable(from, 4), rectangle_of(from), *wrap(look_at(to, "output")), rectangle_of(to));
+    look_at(from, name_of(4), true);
+    bring(*readable(from, 4), rectangle_of(from), *wrap(look_at(to, "output", true)), rectangle_of(to));
     return clamped(to);
 }
 
@@ -297,6 +338,7 @@ void GlBackend::bring(const GlImage &from, const Rectangle &source, const GlImag
 
 void GlBackend::trim()
 {
+    seen_.clear();
     pool_->trim();
     disposal_->collect();
 }

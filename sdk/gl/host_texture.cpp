@@ -93,45 +93,9 @@ bool is_2d(GLuint texture, GLint height, StateGuard &guard)
     return take_error() == GL_NO_ERROR;
 }
 
-// A minification filter that wants mipmaps makes a texture without them incomplete, for image stores and copies too.
-void require_complete(const HostTexture &looked_at, const std::string &what)
-{
-    const GLuint texture = looked_at.name;
-    if (parameter(texture, GL_TEXTURE_IMMUTABLE_FORMAT))
-        return;
-    const GLint filter = parameter(texture, GL_TEXTURE_MIN_FILTER);
-    if (filter == GL_NEAREST || filter == GL_LINEAR)
-        return;
-    int last = 0;
-    for (int32_t side = std::max(looked_at.width, looked_at.height); side > 1; side /= 2)
-        ++last;
-    last = std::min(last, parameter(texture, GL_TEXTURE_MAX_LEVEL));
-    for (int level = 1; level <= last; ++level)
-        if (level_parameter(texture, level, GL_TEXTURE_WIDTH) != std::max(1, looked_at.width >> level))
-            refuse(BRUME_ERROR_ARGUMENT, what, texture,
-                   "is incomplete: its GL_TEXTURE_MIN_FILTER wants mipmaps and level " + std::to_string(level) +
-                       " is missing; expected all levels, GL_NEAREST, GL_LINEAR or GL_TEXTURE_MAX_LEVEL 0");
-}
-
-// Reads would go through the swizzle and writes and copies would not: no result would be right for both.
-void require_plain_sampling(const HostTexture &texture, const std::string &what)
-{
-    const GLint base = parameter(texture.name, GL_TEXTURE_BASE_LEVEL);
-    if (base != 0)
-        refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
-               "has GL_TEXTURE_BASE_LEVEL " + std::to_string(base) + "; expected 0");
-    GLint swizzle[4] = {};
-    glGetTextureParameteriv(texture.name, GL_TEXTURE_SWIZZLE_RGBA, swizzle);
-    const GLint plain[] = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
-    for (int i = 0; i < (texture.scalar ? 1 : 4); ++i)
-        if (swizzle[i] != plain[i])
-            refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
-                   "is swizzled (GL_TEXTURE_SWIZZLE_RGBA); expected the initial swizzle");
-}
-
-// Whether it can be read as colour or as one channel; returns whether it is depth. Formats in common use are known by name,
+// Whether it can be read as colour or as one channel, or is depth. Formats in common use are known by name,
 // which spares four questions to the driver.
-bool classify(HostTexture &texture)
+void classify(HostTexture &texture)
 {
     switch (texture.format) {
     case GL_RGBA16F:
@@ -139,20 +103,20 @@ bool classify(HostTexture &texture)
     case GL_R11F_G11F_B10F:
     case GL_RGB10_A2:
         texture.color = true;
-        return false;
+        return;
     case GL_R16:
     case GL_R16F:
     case GL_R32F:
     case GL_RG32F:
         texture.scalar = true;
-        return false;
+        return;
     case GL_DEPTH_COMPONENT16:
     case GL_DEPTH_COMPONENT24:
     case GL_DEPTH_COMPONENT32F:
     case GL_DEPTH24_STENCIL8:
     case GL_DEPTH32F_STENCIL8:
-        texture.scalar = true;
-        return true;
+        texture.scalar = texture.depth = true;
+        return;
     default:
         break;
     }
@@ -160,10 +124,8 @@ bool classify(HostTexture &texture)
         const GLint type = level_parameter(texture.name, 0, component);
         return type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
     };
-    const bool depth = real(GL_TEXTURE_DEPTH_TYPE);
+    texture.scalar = texture.depth = real(GL_TEXTURE_DEPTH_TYPE);
     texture.color = real(GL_TEXTURE_RED_TYPE) && real(GL_TEXTURE_GREEN_TYPE) && real(GL_TEXTURE_BLUE_TYPE);
-    texture.scalar = depth;
-    return depth;
 }
 
 }  // namespace
@@ -182,18 +144,68 @@ HostTexture inspect(GLuint name, const std::string &what, StateGuard &guard)
     if (texture.width == 0)
         refuse(BRUME_ERROR_ARGUMENT, what, name, "has no level 0");
 
-    const bool depth = classify(texture);
+    classify(texture);
     if (!texture.color && !texture.scalar)
         refuse(BRUME_ERROR_UNSUPPORTED, what, name,
                "is " + format_text(texture.format) +
                    "; expected a floating-point or normalised format with red, green and "
                    "blue for colour, GL_R16, GL_R16F, GL_R32F, GL_RG32F or a depth format for depth");
-    if (depth && parameter(name, GL_DEPTH_STENCIL_TEXTURE_MODE) != GL_DEPTH_COMPONENT)
-        refuse(BRUME_ERROR_UNSUPPORTED, what, name,
-               "is sampled as stencil; expected GL_DEPTH_STENCIL_TEXTURE_MODE GL_DEPTH_COMPONENT");
-    require_complete(texture, what);
     require_plain_sampling(texture, what);
     return texture;
+}
+
+bool require_complete(const HostTexture &looked_at, const std::string &what)
+{
+    const GLuint texture = looked_at.name;
+    if (parameter(texture, GL_TEXTURE_IMMUTABLE_FORMAT))
+        return true;
+    const GLint filter = parameter(texture, GL_TEXTURE_MIN_FILTER);
+    if (filter == GL_NEAREST || filter == GL_LINEAR)
+        return false;
+    int last = 0;
+    for (int32_t side = std::max(looked_at.width, looked_at.height); side > 1; side /= 2)
+        ++last;
+    last = std::min(last, parameter(texture, GL_TEXTURE_MAX_LEVEL));
+    for (int level = 1; level <= last; ++level)
+        if (level_parameter(texture, level, GL_TEXTURE_WIDTH) != std::max(1, looked_at.width >> level))
+            refuse(BRUME_ERROR_ARGUMENT, what, texture,
+                   "is incomplete: its GL_TEXTURE_MIN_FILTER wants mipmaps and level " + std::to_string(level) +
+                       " is missing; expected all levels, GL_NEAREST, GL_LINEAR or GL_TEXTURE_MAX_LEVEL 0");
+    return false;
+}
+
+// What is gone answers nothing, by an error.
+bool has_format(const HostTexture &texture)
+{
+    const bool has = GLenum(level_parameter(texture.name, 0, GL_TEXTURE_INTERNAL_FORMAT)) == texture.format;
+    if (!has)
+        take_error();
+    return has;
+}
+
+bool has_size(const HostTexture &texture)
+{
+    return level_parameter(texture.name, 0, GL_TEXTURE_WIDTH) == texture.width &&
+           level_parameter(texture.name, 0, GL_TEXTURE_HEIGHT) == texture.height;
+}
+
+// Reads would go through the swizzle and writes and copies would not: no result would be right for both.
+void require_plain_sampling(const HostTexture &texture, const std::string &what)
+{
+    if (texture.depth && parameter(texture.name, GL_DEPTH_STENCIL_TEXTURE_MODE) != GL_DEPTH_COMPONENT)
+        refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
+               "is sampled as stencil; expected GL_DEPTH_STENCIL_TEXTURE_MODE GL_DEPTH_COMPONENT");
+    const GLint base = parameter(texture.name, GL_TEXTURE_BASE_LEVEL);
+    if (base != 0)
+        refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
+               "has GL_TEXTURE_BASE_LEVEL " + std::to_string(base) + "; expected 0");
+    GLint swizzle[4] = {};
+    glGetTextureParameteriv(texture.name, GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+    const GLint plain[] = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
+    for (int i = 0; i < (texture.scalar ? 1 : 4); ++i)
+        if (swizzle[i] != plain[i])
+            refuse(BRUME_ERROR_UNSUPPORTED, what, texture.name,
+                   "is swizzled (GL_TEXTURE_SWIZZLE_RGBA); expected the initial swizzle");
 }
 
 HostTexture trusted(const brume_image &image, const std::string &what)
@@ -203,7 +215,7 @@ HostTexture trusted(const brume_image &image, const std::string &what)
         refuse(BRUME_ERROR_ARGUMENT, what, image.gl_texture,
                "is trusted with " + std::to_string(image.channels) + " channels; expected 1, 3 or 4");
     const brume_image whole = whole_of(image);
-    return {image.gl_texture, whole.width, whole.height, image_format(scalar ? 1 : 4, image.pixel), color, scalar};
+    return {image.gl_texture, whole.width, whole.height, image_format(scalar ? 1 : 4, image.pixel), color, scalar, false};
 }
 
 void require_size(const HostTexture &texture, const brume_image &image, const std::string &what)

@@ -16,10 +16,21 @@ struct HostTexture {
     GLenum format;  // internal
     bool color;     // floating-point or normalised, with red, green and blue
     bool scalar;    // one floating-point channel, or depth
+    bool depth;
 };
 
-// Throws Error unless it exists, is two-dimensional, complete, and sampled as it is stored.
+// Throws Error unless it exists, is two-dimensional, and sampled as it is stored.
 HostTexture inspect(GLuint name, const std::string &what, StateGuard &guard);
+
+// Whether a texture of that name still has what inspect() found of its storage: the format, and the size.
+bool has_format(const HostTexture &texture);
+bool has_size(const HostTexture &texture);
+// What its owner may change while it lives.
+void require_plain_sampling(const HostTexture &texture, const std::string &what);
+
+// A minification filter that wants mipmaps makes a texture without them incomplete for image stores and copies; samplers of
+// our own read it all the same. Returns whether it stays complete while it lives.
+bool require_complete(const HostTexture &texture, const std::string &what);
 
 // What the image says of itself, of which OpenGL is not asked.
 HostTexture trusted(const brume_image &image, const std::string &what);

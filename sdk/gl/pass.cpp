@@ -1,7 +1,7 @@
 #include "gl/pass.h"
 
 #include <algorithm>
-#include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ GlPass::GlPass(std::shared_ptr<GlProgram> program, PassLayout described)
 
 void GlPass::find_slots()
 {
-    for (const auto &[name, declared] : program_->slots()) {
+    for (auto &[name, declared] : program_->slots()) {
         const auto found =
             std::find_if(layout.slots.begin(), layout.slots.end(), [&](auto &slot) { return slot.name == name; });
         if (found == layout.slots.end())
@@ -92,7 +92,7 @@ void GlPass::find_slots()
         if (write != declared.image)
             refuse(*program_, "declares {} as {}; pass \"{}\" has a slot for {} there", name,
                    declared.image ? "image2D" : "sampler2D", layout.name, write ? "writing" : "reading");
-        bindings_.push_back({size_t(found - layout.slots.begin()), declared.unit, found->access});
+        bindings_.push_back({size_t(found - layout.slots.begin()), &declared, found->access});
     }
 }
 
@@ -120,6 +120,26 @@ void GlPass::set_constants(const void *constants)
         program_->set(constant.uniform, static_cast<const char *>(constants) + constant.offset);
 }
 
+// Units from 0 up for what is bound, and one more for all that is not: what the host has on a unit costs questions to keep.
+void GlPass::bind_images(const brume_plugin_image *images, const Samplers &samplers, StateGuard &guard)
+{
+    GLuint units[2] = {0, 0};  // for reading, for writing
+    for (const Binding &binding : bindings_)
+        if (const brume_plugin_image image = images[binding.slot]) {
+            const GLuint unit = units[binding.access == BRUME_ACCESS_WRITE]++;
+            program_->set_unit(*binding.uniform, unit);
+            bind(static_cast<const GlImage &>(*image), unit, binding.access, samplers, guard);
+        }
+    bool nothing[2] = {false, false};
+    for (const Binding &binding : bindings_)
+        if (!images[binding.slot]) {
+            const bool write = binding.access == BRUME_ACCESS_WRITE;
+            program_->set_unit(*binding.uniform, units[write]);
+            if (!std::exchange(nothing[write], true))
+                bind_nothing(units[write], write, samplers, guard);
+        }
+}
+
 void GlPass::run(const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
                  const brume_plugin_scene &scene, const Samplers &samplers, StateGuard &guard)
 {
@@ -127,12 +147,7 @@ void GlPass::run(const brume_plugin_image *images, const void *constants, int32_
     set_constants(constants);
     program_->set_scene(scene);
     program_->set_grid(width, height);
-    for (const Binding &binding : bindings_) {
-        if (const brume_plugin_image image = images[binding.slot])
-            bind(static_cast<const GlImage &>(*image), binding.unit, binding.access, samplers, guard);
-        else
-            bind_nothing(binding.unit, binding.access == BRUME_ACCESS_WRITE, samplers, guard);
-    }
+    bind_images(images, samplers, guard);
     guard.program();
     glUseProgram(program_->id());
     glDispatchCompute(GLuint((width + group_side - 1) / group_side), GLuint((height + group_side - 1) / group_side), 1);

@@ -31,8 +31,8 @@ public:
 
 private:
     struct Binding {
-        size_t slot;
-        GLuint unit;
+        size_t slot;  // of the layout
+        GlProgram::Slot *uniform;
         uint32_t access;
     };
     struct Constant {
@@ -43,6 +43,7 @@ private:
     void find_slots();
     void find_constants();
     void set_constants(const void *constants);
+    void bind_images(const brume_plugin_image *images, const Samplers &samplers, StateGuard &guard);
 
     const std::shared_ptr<GlProgram> program_;
     std::vector<Binding> bindings_;

@@ -106,7 +106,6 @@ void GlProgram::list_uniforms()
     GLint count = 0, longest = 0;
     glGetProgramInterfaceiv(id_, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
     glGetProgramInterfaceiv(id_, GL_UNIFORM, GL_MAX_NAME_LENGTH, &longest);
-    GLuint textures = 0, images = 0;
     for (GLuint i = 0; i < GLuint(count); ++i) {
         std::string buffer(size_t(longest) + 1, '\0');
         glGetProgramResourceName(id_, GL_UNIFORM, i, GLsizei(buffer.size()), nullptr, buffer.data());
@@ -123,10 +122,7 @@ void GlProgram::list_uniforms()
         } else if (find_type(uniform.type)) {
             uniforms_[name] = uniform;
         } else if ((uniform.type == GL_SAMPLER_2D || uniform.type == GL_IMAGE_2D) && uniform.size == 1) {
-            const bool image = uniform.type == GL_IMAGE_2D;
-            const GLuint unit = image ? images++ : textures++;
-            glProgramUniform1i(id_, uniform.location, GLint(unit));
-            slots_[name] = {unit, image};
+            slots_[name] = {uniform.location, uniform.type == GL_IMAGE_2D};
         } else {
             throw Error(BRUME_ERROR_GL, "program \"" + name_ + "\": uniform " + name +
                                             " has a type that passes cannot set; "
@@ -159,6 +155,14 @@ void GlProgram::take_host_uniform(const std::string &name, const Uniform &unifor
                     "program \"" + name_ + "\": uniform " + name +
                         " is none that the host sets; expected ivec2 brume_grid, Medium brume_medium, Camera "
                         "brume_camera, float brume_output_limit, or a name that does not begin with brume_");
+}
+
+void GlProgram::set_unit(Slot &slot, GLuint unit) const
+{
+    if (slot.unit == unit)
+        return;
+    glProgramUniform1i(id_, slot.location, GLint(unit));
+    slot.unit = unit;
 }
 
 void GlProgram::set(const Uniform &uniform, const void *data) const

@@ -19,10 +19,11 @@ public:
         GLenum type;
         GLint size;  // array length
     };
-    // A sampler2D's texture unit or an image2D's image unit; numbered in the order of declaration's listing by GL.
+    // A sampler2D or an image2D, and the texture or image unit that it is set to.
     struct Slot {
-        GLuint unit;
+        GLint location;
         bool image;
+        GLuint unit = 0;
     };
 
     // Throws Error(BRUME_ERROR_GL) with the compiler's or linker's log, or naming a uniform that passes cannot set.
@@ -35,9 +36,10 @@ public:
     GLuint id() const { return id_; }
     const std::string &name() const { return name_; }
     // By name, without those that the host sets.
-    const std::map<std::string, Slot, std::less<>> &slots() const { return slots_; }
+    std::map<std::string, Slot, std::less<>> &slots() { return slots_; }
     const std::map<std::string, Uniform, std::less<>> &uniforms() const { return uniforms_; }
 
+    void set_unit(Slot &slot, GLuint unit) const;
     // Of the uniform's size, in its type.
     void set(const Uniform &uniform, const void *data) const;
     void set_grid(int32_t width, int32_t height) const;

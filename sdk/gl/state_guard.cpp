@@ -82,6 +82,8 @@ void set_scales(const FewValues<GLfloat> &values)
 
 StateGuard::StateGuard(uint32_t mode, const ContextProperties &properties) : mode_(mode), properties_(properties)
 {
+    if (mode_ == BRUME_GL_STATE_OWNED)
+        debug_groups_ = properties_.most_debug_groups > 2;  // the stack is ours
     // Programs may not be changed while transform feedback runs.
     if (mode_ != BRUME_GL_STATE_OWNED && get(GL_TRANSFORM_FEEDBACK_ACTIVE) && !get(GL_TRANSFORM_FEEDBACK_PAUSED)) {
         glPauseTransformFeedback();

@@ -25,7 +25,7 @@ bool contains(const std::vector<std::string> &names, const std::string &name)
 
 brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const Format &format, Purpose purpose)
     : context_(std::move(context)), scene_(std::move(scene)), given_effects_(scene_.effects), format_(format),
-      structure_(scene_, format_), rehearsal_(purpose == Purpose::rehearsal)
+      structure_(scene_, format_), resources_(*context_->backend, purpose)
 {
     context_->backend->invoke([&] {
         int32_t largest = context_->backend->largest_size();
@@ -39,7 +39,7 @@ brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const 
             order_effects();
             set_parameters();
             plan_effects();
-            if (!rehearsal_)
+            if (purpose == Purpose::execution)
                 timer_ = context_->backend->create_timer();
         } catch (...) {
             release();
@@ -75,10 +75,7 @@ void brume_host_t::release() noexcept
 {
     destroy_states();
     layers_.release();
-    data_.clear();
-    images_.clear();
-    between_[0] = between_[1] = nullptr;
-    passes_.clear();
+    resources_.release();
 }
 
 void brume_host_t::destroy_states() noexcept
@@ -123,14 +120,11 @@ void brume_host_t::plan_effects()
             running_.push_back(&planned);
     check_outputs();
     plan_host_products(scene);
-    bind_passes();
+    resources_.bind_passes(entries_);
     content_.scene_changed();
 
-    for (int i = 0; i < std::min<int>(int(running_.size()) - 1, 2); ++i) {
-        memory_.add("between effects", format_.width, format_.height, 4);
-        if (!rehearsal_)
-            between_[i] = context_->backend->create_image(format_.width, format_.height, 4, BRUME_PIXEL_F32);
-    }
+    for (int i = 0; i < std::min<int>(int(running_.size()) - 1, 2); ++i)
+        between_[i] = create_image("between effects", format_.width, format_.height, 4);
     for (auto &entry : entries_)
         if (entry.runs)
             entry.predicted_ms =
@@ -174,22 +168,6 @@ void brume_host_t::plan_host_products(const brume_plugin_scene &scene)
             });
         if (layer.flags & BRUME_LAYER_INPUT && !read)
             entries_.push_back({false, host_name, layer.name.name, "an input layer that nothing which runs reads", 0, 0, 0});
-    }
-}
-
-// Finds the entry that each pass's time counts to.
-void brume_host_t::bind_passes()
-{
-    for (size_t i = 0; i < passes_.size(); ++i) {
-        Pass &pass = *passes_[i];
-        const std::string &owner = pass_owners_[i] ? pass_owners_[i]->name : host_name;
-        const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const PlanEntry &entry) {
-            return entry.runs && entry.effect == owner && entry.name == pass.layout.name;
-        });
-        if (found == entries_.end())
-            throw Error(BRUME_ERROR_PLUGIN, fmt::format("{}: pass \"{}\" is not among the running entries of the plan",
-                                                        owner, pass.layout.name));
-        pass.entry = int(found - entries_.begin());
     }
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,23 +8,13 @@
 #include "scene/format.h"
 #include "plan/host_products.h"
 #include "plan/layers.h"
-#include "plan/plan_memory.h"
+#include "plan/plan_resources.h"
 #include "effects/offer.h"
 #include "plan/products.h"
 #include "scene/scene.h"
 #include "scene/structure.h"
 
 namespace brume {
-
-inline const std::string host_name = "brume";  // of the host's own entries
-
-struct PlanEntry {
-    bool runs = false;
-    std::string effect, name, reason;
-    uint64_t bytes = 0;
-    uint64_t operations = 0;
-    double predicted_ms = 0;
-};
 
 // One effect's part of a plan.
 struct PlannedEffect {
@@ -45,12 +34,10 @@ struct PlannedEffect {
     std::vector<brume_plugin_product> products{};
 };
 
-// Rehearsals are planned for their entries and offers: they hold no images or passes and cannot be executed.
-enum class Purpose { execution, rehearsal };
-
 }  // namespace brume
 
-// What must be done for one scene and one image format. It is also the host that effects talk to.
+// What must be done for one scene and one image format. It is also the host that effects talk to: planning, services and
+// frames work on the same effects, entries and products, and a class for each would hand all of these around.
 struct brume_host_t {
 public:
     brume_host_t(std::shared_ptr<brume::Context> context, brume::Scene scene, const brume::Format &format,
@@ -73,9 +60,9 @@ public:
     uint32_t camera_needs() const { return camera_needs_; }
     const std::string &camera_reason() const { return camera_reason_; }
     // In a rehearsal, what the plan's would be.
-    const brume::ImageMemory &image_memory() const { return memory_; }
+    const brume::ImageMemory &image_memory() const { return resources_.memory(); }
     // Those, and since the first frame what it uploads and what callers' images are converted to.
-    uint64_t image_bytes() const { return memory_.bytes() + data_bytes_ + frame_bytes_; }
+    uint64_t image_bytes() const { return resources_.bytes() + frame_bytes_; }
     // Of the last frame's half outputs; not_counted before one.
     int64_t clamped_values() const { return clamped_values_; }
     // Of the last frame per entry; empty before one.
@@ -85,15 +72,21 @@ public:
     brume_status fail(brume_status status, const char *message);
     void add_entry(const brume_plugin_entry &entry);
     void need_camera(uint32_t needs, const std::string &reason);
-    brume_plugin_image create_image(const char *label, int32_t width, int32_t height, int32_t channels);
-    void drop_image(brume_plugin_image image);
+    brume_plugin_image create_image(const char *label, int32_t width, int32_t height, int32_t channels)
+    {
+        return resources_.create_image(label, width, height, channels);
+    }
+    void drop_image(brume_plugin_image image) { resources_.drop_image(image); }
     int32_t largest_size() const { return context_->backend->largest_size(); }
     uint32_t backend_kind() const { return context_->backend->kind(); }
-    brume_pass create_pass(const brume_pass_desc &desc);
+    brume_pass create_pass(const brume_pass_desc &desc) { return resources_.create_pass(desc, caller()); }
     uint32_t made(std::string_view product) const;
     brume_status run(brume_pass pass, const brume_plugin_image *images, const void *constants, int32_t width, int32_t height,
                      void *user);
-    brume_plugin_image upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels);
+    brume_plugin_image upload(uint32_t slot, int32_t channels, const float *values, uint64_t texels)
+    {
+        return resources_.upload(caller(), slot, channels, values, texels);
+    }
     void publish(const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count,
                  uint64_t revision);
 
@@ -101,12 +94,6 @@ public:
     void warn_on_software_gl(const std::string &message);
 
 private:
-    // A data image and, on the CPU, the memory that it wraps.
-    struct Data {
-        std::vector<float> values;
-        std::shared_ptr<brume::Image> image;
-    };
-
     std::string wakes(const brume::Scene &scene, const brume::Format &format) const;
     void take(const brume::SceneValues &values);
     void expect_shadow_maps() const;
@@ -123,9 +110,9 @@ private:
     void take_offers(brume::PlannedEffect &planned, brume_plugin_request request);
     void plan_host_products(const brume_plugin_scene &scene);
     void check_outputs() const;
-    void bind_passes();
     void release() noexcept;
     void destroy_states() noexcept;
+    const brume::Effect *caller() const { return current_ ? current_->effect : nullptr; }
     double share_before(int entry) const;  // of the frame's predicted time
     bool is_made_by(const brume::PlannedEffect &planned, std::string_view product) const;
     bool uses_product(const brume::PlannedEffect &planned, std::string_view product) const;
@@ -145,24 +132,19 @@ private:
     std::vector<brume::PlannedEffect> effects_;
     std::vector<brume::PlannedEffect *> running_;
     std::vector<brume::PlanEntry> entries_;
-    std::vector<std::shared_ptr<brume::Image>> images_;
-    std::vector<std::shared_ptr<brume::Pass>> passes_;
-    std::vector<const brume::Effect *> pass_owners_;  // of passes_; null: the host
-    std::shared_ptr<brume::Image> between_[2];        // what one effect hands to the next
+    brume::PlanResources resources_;
+    brume_plugin_image between_[2] = {};  // what one effect hands to the next
     std::unique_ptr<brume::FrameTimer> timer_;
     uint32_t camera_needs_ = 0;
     std::string camera_reason_;
-    brume::ImageMemory memory_;
-    uint64_t data_bytes_ = 0, frame_bytes_ = 0;
+    uint64_t frame_bytes_ = 0;
     brume::Content content_;
     brume::FrameLayers layers_;
     brume::Products products_;
     brume::HostProducts host_products_;
-    std::map<std::pair<const brume::PlannedEffect *, uint32_t>, Data> data_;  // by effect (the host: null) and slot
     bool settling_ = false;                          // what the scene decides of the effects' parameters
     const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
     std::string failure_;
     bool warned_ = false;
-    const bool rehearsal_;
     int64_t clamped_values_ = brume::not_counted;
 };

@@ -137,10 +137,10 @@ int64_t brume_host_t::run_effects(const brume_frame &frame)
     current_ = nullptr;
     failure_.clear();
     host_products_.execute(*this, content_.scene(), depth.get(), layers_);
-    Image *input = color.get();
+    brume_plugin_image input = color.get();
     for (size_t i = 0; i < running_.size(); ++i) {
         seen.color = input;
-        seen.output = i + 1 == running_.size() ? output.get() : between_[i % 2].get();
+        seen.output = i + 1 == running_.size() ? output.get() : between_[i % 2];
         run_effect(*running_[i], seen);
         input = seen.output;
     }

@@ -247,8 +247,10 @@ public:
         }
         scene_.gaussians = gaussians_.data();
         scene_.gaussian_count = uint32_t(gaussians_.size());
+        scene_.gaussian_size = sizeof gaussians_[0];
         scene_.lights = lights_.data();
         scene_.light_count = uint32_t(lights_.size());
+        scene_.light_size = sizeof lights_[0];
         for (size_t i = 0; i < 3; ++i)
             scene_.position[i] = position[int(i)];
     }

@@ -173,8 +173,10 @@ private:
         brume_plugin_scene scene = r.scene;
         scene.gaussians = gaussians.data();
         scene.gaussian_count = uint32_t(gaussians.size());
+        scene.gaussian_size = sizeof gaussians[0];
         scene.lights = lights.data();
         scene.light_count = uint32_t(lights.size());
+        scene.light_size = sizeof lights[0];
         r.settings.gaussian_count = int(gaussians.size());
         brume::LightGaussians lists;
         lists.refresh(scene, true, false);

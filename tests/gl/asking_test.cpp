@@ -65,12 +65,14 @@ TEST_P(Asking, EachTextureIsLookedAtOnceAFrame)
     {
         const QueryCount count;
         frame.run(*backend);
-        EXPECT_EQ(QueryCount::of("glIsTexture"), 3) << QueryCount::list();
+        EXPECT_EQ(QueryCount::of("glGetTextureLevelParameteriv"), 3 * 3) << QueryCount::list();
+        EXPECT_EQ(QueryCount::of("glGetTextureParameteriv"), 3 * 2) << QueryCount::list();
     }
     frame.output = frame.color;
+    frame.run(*backend);
     const QueryCount count;
     frame.run(*backend);
-    EXPECT_EQ(QueryCount::of("glIsTexture"), 2) << QueryCount::list();
+    EXPECT_EQ(QueryCount::of("glGetTextureLevelParameteriv"), 2 * 3) << QueryCount::list();
 }
 
 // Between frames the host may do anything to its textures.
@@ -83,6 +85,53 @@ TEST_P(Asking, EachFrameLooksAgain)
     EXPECT_NE(failure_of([&] { frame.run(*backend); }).message.find("swizzled"), std::string::npos);
     glTextureParameteri(frame.color.gl_texture, GL_TEXTURE_SWIZZLE_R, GL_RED);
     EXPECT_EQ(failure_of([&] { frame.run(*backend); }).message, "");
+    GLuint levels = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &levels);
+    glTextureStorage2D(levels, 2, GL_RGBA16F, width, height);
+    frame.color = texture_image(levels, width, height);
+    EXPECT_EQ(failure_of([&] { frame.run(*backend); }).message, "");
+    glTextureParameteri(levels, GL_TEXTURE_BASE_LEVEL, 1);
+    EXPECT_NE(failure_of([&] { frame.run(*backend); }).message.find("BASE_LEVEL 1"), std::string::npos);
+    glTextureParameteri(levels, GL_TEXTURE_BASE_LEVEL, 0);
+
+    GLuint written = 0;  // whose completeness is what the host makes of it
+    glGenTextures(1, &written);
+    glBindTexture(GL_TEXTURE_2D, written);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    frame.output = texture_image(written, width, height);
+    EXPECT_EQ(failure_of([&] { frame.run(*backend); }).message, "");
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    EXPECT_NE(failure_of([&] { frame.run(*backend); }).message.find("level 1 is missing"), std::string::npos);
+}
+
+// Names come back for other textures, which compatibility profiles let the host choose.
+TEST_P(Asking, TexturesMadeAnewUnderAnOldNameAreNoticed)
+{
+    for (uint32_t state : {BRUME_GL_STATE_PRESERVE, BRUME_GL_STATE_OWNED}) {
+        auto backend = borrowed_backend(state);
+        Frame frame;
+        frame.run(*backend);
+        const GLuint name = frame.color.gl_texture;
+        const auto failure_with = [&](GLenum format, int32_t rows) {
+            glDeleteTextures(1, &name);
+            if (format) {
+                glBindTexture(GL_TEXTURE_2D, name);
+                glTexStorage2D(GL_TEXTURE_2D, 1, format, width, rows);
+            }
+            return failure_of([&] { frame.run(*backend); }).message;
+        };
+        EXPECT_NE(failure_with(GL_NONE, 0).find("does not exist"), std::string::npos) << state;
+        if (GetParam()) {
+            EXPECT_EQ(failure_with(GL_RGBA32F, height), "") << state;
+            EXPECT_NE(failure_with(GL_R32F, height).find("is GL_R32F"), std::string::npos) << state;
+            EXPECT_EQ(failure_with(GL_RGBA32F, height), "") << state;
+            // A context that nobody else uses takes the host's word for sizes.
+            EXPECT_EQ(failure_with(GL_RGBA32F, height + 1).find("the image says") != std::string::npos,
+                      state == BRUME_GL_STATE_PRESERVE);
+        }
+        EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+    }
 }
 
 TEST_P(Asking, TrustedTexturesAreNotLookedAt)

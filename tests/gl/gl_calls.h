@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -18,6 +19,17 @@ public:
 
 private:
     static std::map<std::string, int> calls();
+};
+
+// What the textures hold that are made while this lives, by their storage: until they are deleted.
+class TextureBytes {
+public:
+    TextureBytes();
+    ~TextureBytes();
+    TextureBytes(const TextureBytes &) = delete;
+    TextureBytes &operator=(const TextureBytes &) = delete;
+
+    static uint64_t held();
 };
 
 }  // namespace brume::test

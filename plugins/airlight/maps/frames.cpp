@@ -164,8 +164,8 @@ Frame Fit::across(const brume_plugin_light &light) const
                y = in_camera(*scene.camera, {0, 1, 0}),
                u = glm::normalize(cross(direction, std::abs(dot(direction, x)) < 0.6 ? x : y)), v = cross(direction, u);
     vec3 low(1e30), high(-1e30), lit_low(1e30), lit_high(-1e30);
-    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-        const Gaussian g = gaussian_of(scene.gaussians[i]);
+    for (const brume_plugin_gaussian &given : brume::gaussians_in(scene)) {
+        const Gaussian g = gaussian_of(given);
         const double reach = gaussian_reach(medium, g);
         const vec3 at(dot(u, g.center), dot(v, g.center), dot(direction, g.center));
         low = min(low, at - reach);
@@ -206,8 +206,8 @@ Frame Fit::around(const brume_plugin_light &light) const
     bool inside = false;
     vec3 middle(0);
     double near = 1e30, far = -1e30;
-    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-        const Gaussian g = gaussian_of(scene.gaussians[i]);
+    for (const brume_plugin_gaussian &given : brume::gaussians_in(scene)) {
+        const Gaussian g = gaussian_of(given);
         const double reach = gaussian_reach(medium, g);
         if (!is_lit(g.center, reach))
             continue;
@@ -276,7 +276,7 @@ bool Frames::place(const brume_plugin_scene &scene, int width, int height, bool 
     const Fit fit{scene, View(*scene.camera, width, height), everywhere};
     bool again = moved;
     for (uint32_t l = 0; l < scene.light_count; ++l) {
-        const brume_plugin_light &light = scene.lights[l];
+        const brume_plugin_light &light = brume::lights_in(scene)[l];
         const bool parallel = light.type == BRUME_LIGHT_DIRECTIONAL;
         const Frame fitted = parallel ? fit.across(light) : fit.around(light);
         Frame &frame = frames_[l];

@@ -305,7 +305,7 @@ public:
 private:
     brume_plugin_image product(Product of, uint32_t index = 0) const
     {
-        const brume_plugin_product &product = frame_.products[of];
+        const brume_plugin_product &product = brume::products_in(frame_)[of];
         return index < product.image_count ? product.images[index] : nullptr;
     }
 

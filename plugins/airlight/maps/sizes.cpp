@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "maps/slices.h"
+#include "scene_arrays.hpp"
 
 namespace airlight::maps {
 
@@ -29,8 +30,7 @@ Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least
         const double of_noise = noise[0] > 0 ? 0.35 / double(noise[1]) : std::numeric_limits<double>::infinity();
         static thread_local std::vector<double> all;  // frames allocate nothing once warm
         all.clear();
-        for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-            const brume_plugin_gaussian &g = scene.gaussians[i];
+        for (const brume_plugin_gaussian &g : brume::gaussians_in(scene)) {
             const double distance = std::hypot(g.center[0], g.center[1], g.center[2]);
             if (-g.center[2] + 2 / g.scale > 0)
                 all.push_back(scene.camera->focal[0] * 0.7071 / std::max(double(g.scale) * distance, 1.0) *

@@ -28,8 +28,8 @@ AlongView along_view(const brume_plugin_scene &scene)
     AlongView p;
     p.from = 1e30;
     auto each = [&](auto visit) {
-        for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-            const Gaussian g = gaussian_of(scene.gaussians[i]);
+        for (const brume_plugin_gaussian &given : brume::gaussians_in(scene)) {
+            const Gaussian g = gaussian_of(given);
             const double reach = gaussian_reach(medium, g);
             if (-g.center.z + reach > 0)
                 visit(g, length(g.center), reach);
@@ -72,9 +72,9 @@ double end_of_terms(const brume_plugin_scene &scene, double gaussians)
     const Medium medium = medium_of(scene);
     double farthest = std::max(gaussians, 1.0);
     bool parallel = false;
-    for (uint32_t l = 0; l < scene.light_count; ++l) {
-        const auto &p = scene.lights[l].position;
-        if (scene.lights[l].type == BRUME_LIGHT_DIRECTIONAL)
+    for (const brume_plugin_light &light : brume::lights_in(scene)) {
+        const auto &p = light.position;
+        if (light.type == BRUME_LIGHT_DIRECTIONAL)
             parallel = true;
         else
             farthest = std::max(farthest, std::hypot(double(p[0]), double(p[1]), double(p[2])));

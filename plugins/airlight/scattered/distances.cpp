@@ -43,8 +43,8 @@ struct Extent {
 Extent of_the_gaussians(const brume_plugin_scene &scene)
 {
     Extent e;
-    for (uint32_t i = 0; scene.gaussians && i < scene.gaussian_count; ++i) {
-        const Gaussian g = gaussian_of(scene.gaussians[i]);
+    for (const brume_plugin_gaussian &given : brume::gaussians_in(scene)) {
+        const Gaussian g = gaussian_of(given);
         const double distance = length(g.center), reach = 3 / std::max(double(g.scale), 1e-30);
         if (g.center.z - reach > 0)
             continue;
@@ -62,8 +62,8 @@ void along_gaussians(const brume_plugin_scene &scene, int width, int height, con
     const vec3 extinction = medium.scattering + medium.absorption;
     const double most = std::min(std::max({extinction.x, extinction.y, extinction.z}), 1e30);
     share.assign(bins + 1, 0.0);
-    for (uint32_t i = 0; i < scene.gaussian_count; ++i) {
-        const Gaussian g = gaussian_of(scene.gaussians[i]);
+    for (const brume_plugin_gaussian &given : brume::gaussians_in(scene)) {
+        const Gaussian g = gaussian_of(given);
         const double distance = length(g.center), radius = 1 / std::max(double(g.scale), 1e-30),
                      depth = std::min(most * double(g.amplitude) * radius, 2.0), angle = std::min(radius / distance, 1.0);
         auto bin = [&](double t) { return std::upper_bound(at.begin(), at.end(), t) - at.begin() - 1; };
@@ -96,11 +96,10 @@ const std::vector<float> &Placement::distances(const brume_plugin_scene &scene, 
     std::vector<Lamp> &lamps = lamps_;
     lamps.clear();
     double all = 0, brightest = 0;
-    for (uint32_t l = 0; l < scene.light_count; ++l)
-        if (scene.lights[l].type != BRUME_LIGHT_DIRECTIONAL)
-            brightest = std::max(brightest, power_of(scene.lights[l]));
-    for (uint32_t l = 0; l < scene.light_count; ++l) {
-        const brume_plugin_light &light = scene.lights[l];
+    for (const brume_plugin_light &light : brume::lights_in(scene))
+        if (light.type != BRUME_LIGHT_DIRECTIONAL)
+            brightest = std::max(brightest, power_of(light));
+    for (const brume_plugin_light &light : brume::lights_in(scene)) {
         const vec3 position(light.position[0], light.position[1], light.position[2]);
         const double distance = length(position);
         if (light.type == BRUME_LIGHT_DIRECTIONAL || !(distance < end) || !(power_of(light) > 0))
@@ -167,7 +166,7 @@ const std::vector<float> &Placement::peaks(const brume_plugin_scene &scene)
     std::vector<double> &weights = weights_;
     weights.assign(1 + scene.light_count, 0.0);
     for (uint32_t l = 0; l < scene.light_count; ++l) {
-        const brume_plugin_light &light = scene.lights[l];
+        const brume_plugin_light &light = brume::lights_in(scene)[l];
         const double power = power_of(light);
         if (light.type == BRUME_LIGHT_DIRECTIONAL) {
             weights[0] += power;
@@ -175,8 +174,8 @@ const std::vector<float> &Placement::peaks(const brume_plugin_scene &scene)
         }
         const vec3 position(light.position[0], light.position[1], light.position[2]);
         double density = density_at(medium, position);
-        for (uint32_t i = 0; scene.gaussians && i < scene.gaussian_count; ++i) {
-            const Gaussian g = gaussian_of(scene.gaussians[i]);
+        for (const brume_plugin_gaussian &given : brume::gaussians_in(scene)) {
+            const Gaussian g = gaussian_of(given);
             const double x = std::min(g.scale * length(g.center - position), 30.0);
             density += double(g.amplitude) * std::exp(-x * x);
         }

@@ -153,7 +153,7 @@ brume_status add_rescattered(const brume_services &services, brume_host host, co
 {
     const Scattered &of = state.scattered;
     auto product = [&](Product which, uint32_t index = 0) -> brume_plugin_image {
-        const brume_plugin_product &p = frame.products[which];
+        const brume_plugin_product &p = brume::products_in(frame)[which];
         return index < p.image_count ? p.images[index] : nullptr;
     };
     Constants constants{};

@@ -183,7 +183,7 @@ brume_status execute_calibrated(const brume_services &services, brume_host host,
         return s;
     if (brume_status s = refresh_sky(services, host, *frame.scene, state))
         return s;
-    const brume_plugin_product &visible = frame.products[use_visible_lights];
+    const brume_plugin_product &visible = brume::products_in(frame)[use_visible_lights];
     const brume_plugin_image density = image_of(frame, use_density), density_rgb = image_of(frame, use_density_rgb),
                              lights = image_of(frame, use_visible_lights);
     CalibratedConstants constants{

@@ -38,8 +38,8 @@ brume_status execute_paper(const brume_services &services, brume_host host, cons
     const brume_plugin_image density = image_of(frame, use_density), density_rgb = image_of(frame, use_density_rgb),
                              gaussian_density = image_of(frame, use_gaussian_density),
                              lights = image_of(frame, use_visible_lights);
-    PaperConstants constants{
-        filter_of(state, *frame.scene, frame.products[use_visible_lights].count), 0, {}, {}, 0, state.parameters.taps};
+    const uint32_t visible = brume::products_in(frame)[use_visible_lights].count;
+    PaperConstants constants{filter_of(state, *frame.scene, visible), 0, {}, {}, 0, state.parameters.taps};
     if (state.top == 0)
         constants.multiscatter.top = 0;
     auto run = [&](brume_pass pass, const auto &images, ivec2 grid) {

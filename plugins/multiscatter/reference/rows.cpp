@@ -112,8 +112,8 @@ brume_status execute_reference(const brume_services &services, brume_host host, 
                                const brume_plugin_frame &frame)
 {
     std::vector<float> spheres;
-    for (uint32_t i = 0; i < frame.scene->light_count; ++i)
-        if (const brume_plugin_light &light = frame.scene->lights[i]; light.radius > 0)
+    for (const brume_plugin_light &light : brume::lights_in(*frame.scene))
+        if (light.radius > 0)
             spheres.insert(spheres.end(), {light.position[0], light.position[1], light.position[2], light.radius});
     const ReferenceFrame seen{.state = state,
                               .scene = *frame.scene,

@@ -44,7 +44,8 @@ typedef struct brume_plugin_image_t *brume_plugin_image; /* a 2-D image of 32-bi
 typedef struct brume_pass_t *brume_pass;               /* a pass as it was described */
 
 /* ---- what effects see of the scene: all of it relative to the camera, in metres, for one frame ----------------------
-   Structs of this section grow at their end only, and are given by pointer with the size that the host knows. The first two are
+   Structs of this section grow at their end only, and are given by pointer with the size that the host knows: arrays of them are
+   stepped through by it, never by sizeof (brume/maths/scene_arrays.hpp has lights_in() and gaussians_in()). The first two are
    also structs of the maths (brume/maths/lib/scene.glsl: Medium, Camera), member by member; programs that declare
    `uniform Medium brume_medium;`, `uniform Camera brume_camera;` or `uniform float brume_output_limit;` get them filled by
    the host. */
@@ -136,7 +137,8 @@ typedef struct brume_plugin_scene {
 
 /* ---- layers and products ------------------------------------------------------------------------------------------
    An effect's table lists the layers that it reads and fills (brume_layer_info in brume.h), and by name the products that it
-   uses and makes. Everywhere below, layers are counted in the order of that table, and products in that of `uses`. */
+   uses and makes. Everywhere below, layers are counted in the order of that table, and products in that of `uses`. Structs of
+   arrays that say no size (brume_plugin_layer, brume_slot, brume_constant, brume_plugin_pixels) do not grow within an ABI. */
 
 typedef struct brume_plugin_layer {
   brume_plugin_image image;             /* as many channels as the table says (3: RGBA); NULL: not given, or not wanted */
@@ -302,7 +304,7 @@ typedef struct brume_plugin_frame {
   brume_plugin_image depth;             /* one channel, as the caller gave it: ray.glsl converts; see product "density" */
   brume_plugin_image output;            /* RGBA; never the image `color` is */
   const brume_plugin_layer *layers;     /* in the order of the effect's table */
-  const brume_plugin_product *products; /* in the order of the effect's `uses` */
+  const brume_plugin_product *products; /* in the order of the effect's `uses`, each of products[0].struct_size */
 } brume_plugin_frame;
 
 typedef struct brume_services {

@@ -122,8 +122,8 @@ brume_status execute(const brume_services *services, brume_host host, void *opaq
 {
     State &state = *static_cast<State *>(opaque);
     brume_plugin_image between = state.made;
-    if (!makes && frame->products[0].image_count > 0)
-        between = frame->products[0].images[0];
+    if (!makes && frame->products->image_count > 0)
+        between = frame->products->images[0];
     const brume_plugin_image images[] = {frame->color, between, frame->output};
     if (const brume_status status =
             services->run(host, state.pass, images, makes ? &state.constants : nullptr, state.width, state.height, nullptr);

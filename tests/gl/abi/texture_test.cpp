@@ -216,8 +216,8 @@ TEST_F(HostTextures, FramesAskLittle)
         bool trusted;
         int most;
     };
-    for (const Case &one : {Case{BRUME_GL_STATE_PRESERVE, false, 51}, Case{BRUME_GL_STATE_PRESERVE, true, 27},
-                            Case{BRUME_GL_STATE_OWNED, false, 29}, Case{BRUME_GL_STATE_OWNED, true, 5}}) {
+    for (const Case &one : {Case{BRUME_GL_STATE_PRESERVE, false, 39}, Case{BRUME_GL_STATE_PRESERVE, true, 24},
+                            Case{BRUME_GL_STATE_OWNED, false, 6}, Case{BRUME_GL_STATE_OWNED, true, 3}}) {
         Plan plan = make_plan(borrowed(one.state));
         brume_image images[] = {texture_image(in), texture_image(z, 1), texture_image(out)};
         for (brume_image &image : images) {
@@ -309,6 +309,55 @@ TEST_F(HostTextures, NothingGrowsOnceWarm)
     for (const brume_plan_entry &entry : plan.entries())
         total += entry.runs ? entry.measured_ms : 0;
     EXPECT_GT(total, 0);
+}
+
+// Before the first frame and after many, with textures and with host memory.
+TEST_F(HostTextures, APlanSaysWhatItHolds)
+{
+    std::string gaussians;
+    for (int i = 0; i < 12; ++i)
+        gaussians += (i ? ", " : "") + std::string(R"({"type": "gaussian", "center": [)") + std::to_string(i % 8 - 4) +
+                     ", " + std::to_string(i % 5 - 1) + ", " + std::to_string(-6 - i % 7) +
+                     R"(], "scale": 0.8, "amplitude": 1})";
+    const std::string lit = R"({ "brume": 1,
+        "camera": {"vertical_fov": 50, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium": {"scattering": 0.03, "absorption": 0.002, "density": [)" +
+                            gaussians + R"(]},
+        "lights": [{"type": "point", "position": [0, 1, -6], "intensity": 60, "radius": 0.1}],
+        "effects": {"multiscatter": {}, "airlight": {"tier": "TIER", "max_error": 0.1}} })";
+    const auto with = [&](const char *tier) { return std::string(lit).replace(lit.find("TIER"), 4, tier); };
+    constexpr int32_t wide = 96, high = 54;
+    std::vector<float> rgba(wide * high * 4, 0.5f), z(wide * high, 9.0f), result(wide * high * 4);
+    std::vector<uint16_t> half(wide * high * 4, 0x3800), half_result(wide * high * 4);
+    const GLuint names[] = {make_texture(GL_RGBA32F, wide, high), make_texture(GL_R32F, wide, high),
+                            make_texture(GL_RGBA32F, wide, high)};
+    enum Given { textures, floats, halves };
+    struct Case {
+        std::string text;
+        Given given;
+    };
+    for (const Case &one : {Case{scene_text, textures}, Case{scene_text, floats}, Case{scene_text, halves},
+                            Case{with("nodes"), textures}, Case{with("maps"), floats}}) {
+        SCOPED_TRACE(testing::Message() << one.text << ", given " << one.given);
+        const Context context(borrowed());
+        const TextureBytes bytes;
+        Plan plan(Scene(context, one.text), brume::format(wide, high));
+        EXPECT_EQ(plan.info().image_bytes, TextureBytes::held()) << "before the first frame";
+        for (int frame = 0; frame < 12; ++frame)
+            if (one.given == textures)
+                plan.execute(brume::texture(names[0], wide, high, 4), brume::texture(names[1], wide, high, 1),
+                             brume::texture(names[2], wide, high, 4));
+            else if (one.given == floats)
+                plan.execute(brume::image(rgba.data(), wide, high, 4), brume::image(z.data(), wide, high, 1),
+                             brume::image(result.data(), wide, high, 4));
+            else
+                plan.execute(brume::half_image(half.data(), wide, high, 4), brume::image(z.data(), wide, high, 1),
+                             brume::half_image(half_result.data(), wide, high, 4));
+        // Halves for host memory are rounded in one more texture, which is the pool's.
+        const uint64_t rounded = one.given == halves ? wide * high * 8 : 0;
+        EXPECT_EQ(plan.info().image_bytes + rounded, TextureBytes::held()) << "after 12 frames";
+        EXPECT_EQ(context.info().device_bytes, TextureBytes::held());
+    }
 }
 
 TEST_F(HostTextures, FailuresAreNamed)
