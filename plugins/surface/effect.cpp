@@ -64,7 +64,7 @@ public:
 private:
     brume_status entry(bool runs, const char *name, const std::string &reason, double bytes, double operations)
     {
-        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations), 0, 0};
         return services_.add_entry(host_, &e);
     }
     brume_status image(const char *label, brume_plugin_image &out)

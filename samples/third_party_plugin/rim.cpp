@@ -81,9 +81,9 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 {
     const bool needed = request->parameters[0] > 0;
     const uint64_t pixels = needed ? uint64_t(request->width) * uint64_t(request->height) : 0;
-    const brume_plugin_entry entry{sizeof entry, needed ? 1u : 0u,
-                                   "rim",        needed ? "edges show light from behind" : "strength 0",
-                                   pixels * 60,  pixels * 40};
+    const brume_plugin_entry entry{
+        sizeof entry, needed ? 1u : 0u, "rim", needed ? "edges show light from behind" : "strength 0",
+        pixels * 60,  pixels * 40,      0,     0};
     if (const brume_status status = services->add_entry(host, &entry); status || !needed)
         return status;
     if (const brume_status status =

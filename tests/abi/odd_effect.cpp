@@ -33,7 +33,7 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
     *state = &inside;
     if (test_case == "throws_destroying_and_planning")
         throw std::runtime_error("thrown in plan");
-    const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0};
+    const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0, 0, 0};
     if (!now.alone)
         return services->fail(host, BRUME_ERROR_PLUGIN, "called twice at once");
     return services->add_entry(host, &entry);

@@ -215,6 +215,17 @@ TEST(ThreadSafety, UnsafePluginsAreNeverCalledTwiceAtOnce)
         thread.join();
 }
 
+// What lies behind an older header's entry is not counted.
+TEST_F(Strangers, OfAnOlderHeaderCountWhatTheyKnow)
+{
+    Scene scene = make_scene(context, scene_with("well_behaved"));
+    Plan plan = make_plan(context, scene, ray_format(16, 12));
+    brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+    ASSERT_EQ(brume_plan_get_entry(plan.get(), 0, &entry), BRUME_OK);
+    EXPECT_STREQ(entry.name, "copy");
+    EXPECT_EQ(entry.operations, 7u);
+}
+
 // Effects run one after the other by their order, each on what the one before left.
 TEST_F(Strangers, RunInOrderAfterOurs)
 {

@@ -597,7 +597,7 @@ typedef struct brume_plan_entry {
   const char *name;
   const char *reason;   /* why it runs, or why not */
   uint64_t bytes;       /* the least it must read and write per frame */
-  uint64_t operations;  /* arithmetic per frame, about */
+  uint64_t operations;  /* per frame, about: what takes one thread of this backend a nanosecond at nominal rates */
   double predicted_ms;
   double measured_ms;   /* of the last execute; < 0 before one. On GL: GPU time; asking waits for that frame to end. */
 } brume_plan_entry;

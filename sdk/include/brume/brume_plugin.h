@@ -191,7 +191,7 @@ typedef struct brume_plugin_product {
 
 typedef struct brume_plugin_request {
   uint32_t struct_size;
-  uint32_t backend;                /* BRUME_BACKEND_CPU or _GL: for costs; passes run on either */
+  uint32_t backend;                /* BRUME_BACKEND_CPU or _GL; passes run on either */
   int32_t width;
   int32_t height;
   uint32_t parameter_count;
@@ -212,7 +212,12 @@ typedef struct brume_plugin_entry {
   const char *name;    /* copied */
   const char *reason;  /* copied */
   uint64_t bytes;      /* the least to be read and written per frame */
-  uint64_t operations; /* what it costs: about as many nanoseconds of one thread of a server CPU */
+
+  /* What it does per frame, counted by kind; what a backend takes for one of a kind is the host's to know. */
+  uint64_t operations; /* of texels by themselves: about as many nanoseconds of one thread of a server CPU */
+  uint64_t alike;      /* such operations that neighbouring texels do alike: where there are lanes they are done side by side */
+  uint64_t turns;      /* turns of loops within a texel (a quadrature's nodes, a ray's steps), each with a few exponentials or a
+                          fetch */
 } brume_plugin_entry;
 
 /* ---- passes ------------------------------------------------------------------------------------------------------ */
@@ -337,6 +342,10 @@ typedef struct brume_services {
      effect's own. `revision` tells contents apart. */
   brume_status (*publish)(brume_host host, const char *product, const brume_plugin_image *images, uint32_t image_count,
                           uint32_t count, uint64_t revision);
+
+  /* In plan() or offer(): what the entry's work takes on this backend, in nanoseconds of one thread at nominal rates: for an effect that
+     chooses between ways. A calibration does not change it, so that pictures do not depend on one. */
+  double (*nanoseconds)(brume_host host, const brume_plugin_entry *entry);
 } brume_services;
 
 /* ---- the effect -------------------------------------------------------------------------------------------------- */

@@ -93,6 +93,8 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
                                    : made == BRUME_MADE_LATER   ? "shade comes too late"
                                                                 : "nobody makes shade",
                                    0,
+                                   0,
+                                   0,
                                    0};
     if (const brume_status status = services->add_entry(host, &entry); status || !entry.runs)
         return status;
