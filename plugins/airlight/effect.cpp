@@ -12,6 +12,7 @@
 #include "orders.h"
 #include "passes.h"
 #include "scene_maths.hpp"
+#include "scenes.h"
 #include "settings.h"
 #include "state.h"
 #include "work.h"
@@ -349,29 +350,39 @@ uint32_t uses_with(const double *values, uint32_t index)
 BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
 {
     using namespace airlight;
-    static const brume_effect effect{
-        sizeof(brume_effect),
-        BRUME_PLUGIN_ABI,
-        "airlight",
-        "adds what the scene's lights scatter toward the camera (Zhou et al. 2007, Sun et al. 2005)",
-        200,
-        BRUME_THREADS_SAFE,
-        BRUME_WANTED_WITH_LIGHTS,
-        uint32_t(parameter_table().size()),
-        layer_count,
-        uint32_t(std::size(made)),
-        product_count,
-        0,
-        parameter_table().data(),
-        layer_table,
-        made,
-        used,
-        plan,
-        execute,
-        [](void *state) { delete static_cast<State *>(state); },
-        makes_with,
-        offer,
-        settle,
-        uses_with};
+    static const std::vector<const char *> scenes = [] {
+        std::vector<const char *> texts;
+        for (const std::string &text : calibration_scenes())
+            texts.push_back(text.c_str());
+        return texts;
+    }();
+    static const brume_effect effect = [] {
+        brume_effect e{};
+        e.struct_size = sizeof e;
+        e.abi = BRUME_PLUGIN_ABI;
+        e.name = "airlight";
+        e.help = "adds what the scene's lights scatter toward the camera (Zhou et al. 2007, Sun et al. 2005)";
+        e.order = 200;
+        e.thread_safety = BRUME_THREADS_SAFE;
+        e.wanted = BRUME_WANTED_WITH_LIGHTS;
+        e.parameters = parameter_table().data();
+        e.parameter_count = uint32_t(parameter_table().size());
+        e.layers = layer_table;
+        e.layer_count = layer_count;
+        e.makes = made;
+        e.make_count = uint32_t(std::size(made));
+        e.uses = used;
+        e.use_count = product_count;
+        e.plan = plan;
+        e.execute = execute;
+        e.destroy = [](void *state) { delete static_cast<State *>(state); };
+        e.makes_with = makes_with;
+        e.offer = offer;
+        e.settle = settle;
+        e.uses_with = uses_with;
+        e.scenes = scenes.data();
+        e.scene_count = uint32_t(scenes.size());
+        return e;
+    }();
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

@@ -289,6 +289,10 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         {size, BRUME_LAYER_OUTPUT, 1, 0, "blur_radius", "deviation of the blur of each pixel's light, in pixels"}};
     static constexpr const char *uses[use_count] = {"density", "density_rgb", "gaussian_density", "visible_lights"};
     static constexpr const char *makes[] = {"attenuated_radiance", "environment_scattering"};
+    // None of method paper: its passes have the same names, and take another time an operation.
+    static constexpr const char *scenes[] = {
+        R"({"brume":1,"camera":{"vertical_fov":50},"medium":{"scattering":[0.03,0.035,0.04],"absorption":0.002,"g":0.8}})",
+        R"({"brume":1,"camera":{"vertical_fov":50},"medium":{"scattering":0.03}})"};
     static const brume_effect effect = [] {
         brume_effect e{};
         e.struct_size = sizeof e;
@@ -313,6 +317,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.execute = execute;
         e.destroy = [](void *state) { delete static_cast<State *>(state); };
         e.offer = offer;
+        e.scenes = scenes;
+        e.scene_count = uint32_t(std::size(scenes));
         return e;
     }();
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;

@@ -33,6 +33,7 @@ struct Effect {
     std::vector<Parameter> parameters;
     std::vector<Layer> layers;
     std::vector<std::string> makes, uses;  // products
+    std::vector<std::string> scenes;       // texts, to calibrate with
     const brume_effect *table = nullptr;
     decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it, as the next
     decltype(brume_effect::makes_with) makes_with = nullptr;

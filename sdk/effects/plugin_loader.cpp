@@ -218,6 +218,17 @@ std::vector<std::string> copy_names(const char *const *names, uint32_t count, co
     return copies;
 }
 
+std::vector<std::string> copy_scenes(const brume_effect &table)
+{
+    const uint32_t count = table.scenes ? table.scene_count : 0;
+    if (count > most_of_others)
+        refuse("scenes: {} of them; expected at most {}", count, most_of_others);
+    for (uint32_t i = 0; i < count; ++i)
+        if (!table.scenes[i])
+            refuse("scenes[{}]: NULL; expected a scene file's text", i);
+    return {table.scenes, table.scenes + count};
+}
+
 void copy_table(const brume_effect *source, Effect &effect)
 {
     // Before all else: what lies behind it is another struct in another ABI.
@@ -242,6 +253,7 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.layers = copy_layers(table);
     effect.makes = copy_names(table.makes, table.make_count, "makes");
     effect.uses = copy_names(table.uses, table.use_count, "uses");
+    effect.scenes = copy_scenes(table);
     effect.table = source;
     effect.offer = table.offer;
     effect.makes_with = table.makes_with;

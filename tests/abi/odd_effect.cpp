@@ -87,6 +87,9 @@ const brume_effect effect{
     .offer = nullptr,
     .settle = settle,
     .uses_with = uses_with,
+    .scenes = nullptr,
+    .scene_count = 0,
+    .reserved_too = 0,
 };
 
 }  // namespace

@@ -105,7 +105,8 @@ FIELD(brume_services, made, 48);
 FIELD(brume_services, run, 56);
 FIELD(brume_services, upload, 64);
 FIELD(brume_services, publish, 72);
-SIZE(brume_effect, 144);
+FIELD(brume_services, nanoseconds, 80);
+SIZE(brume_effect, 160);
 FIELD(brume_effect, name, 8);
 FIELD(brume_effect, order, 24);
 FIELD(brume_effect, layer_count, 40);
@@ -118,6 +119,8 @@ FIELD(brume_effect, makes_with, 112);
 FIELD(brume_effect, offer, 120);
 FIELD(brume_effect, settle, 128);
 FIELD(brume_effect, uses_with, 136);
+FIELD(brume_effect, scenes, 144);
+FIELD(brume_effect, scene_count, 152);
 
 #endif
 

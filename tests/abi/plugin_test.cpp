@@ -215,6 +215,18 @@ TEST(ThreadSafety, UnsafePluginsAreNeverCalledTwiceAtOnce)
         thread.join();
 }
 
+// A calibration measures what strangers' effects do, too, and goes on where one cannot be planned.
+TEST(Calibration, MeasuresStrangers)
+{
+    Context context = context_with(BRUME_TEST_PLUGIN_DIR);
+    ASSERT_EQ(brume_context_calibrate(context.get()), BRUME_OK) << message(context.get());
+    std::string text(brume_context_calibration(context.get(), nullptr, 0), '\0');
+    brume_context_calibration(context.get(), text.data(), text.size());
+    for (const char *pass :
+         {"well_behaved/copy", "surface/compose", "surface/transfer", "airlight/gather", "multiscatter/compose"})
+        EXPECT_NE(text.find(std::string("\"") + pass + "\""), std::string::npos) << pass << " in " << text;
+}
+
 // What lies behind an older header's entry is not counted.
 TEST_F(Strangers, OfAnOlderHeaderCountWhatTheyKnow)
 {

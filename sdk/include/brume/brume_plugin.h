@@ -409,6 +409,14 @@ typedef struct brume_effect {
   /* NULL: uses all that `uses` names; else whether (1 or 0) it uses number `index` of them with these parameters, those that settle
      left. What no running effect uses is not made. */
   uint32_t (*uses_with)(const double *parameters, uint32_t index);
+
+  /* scene_count (at most 64) texts of scene files that between them have the effect's passes do all kinds of their work, for
+     brume_context_calibrate. NULL: it takes scenes of its own, one for each kind of density. It runs the effect alone: with each of its
+     offers, or where it has none with the parameters that the text sets. Frames are small, and bring the layers that the effect needs,
+     then all of the frame's size that it reads. */
+  const char *const *scenes;
+  uint32_t scene_count;
+  uint32_t reserved_too;
 } brume_effect;
 
 typedef const brume_effect *(*brume_plugin_effect_function)(uint32_t host_abi);
