@@ -87,15 +87,15 @@ brume_status Planner::check_tier()
     const Tier tier = state_->parameters.tier;
     const auto &m = *scene_.medium;
     if (tier == Tier::reference && request_.backend != BRUME_BACKEND_CPU)
-        return fail("tier: reference on OpenGL; expected nodes, or the CPU, on which alone references run");
+        return fail("method: reference on OpenGL; expected nodes, or the CPU, on which alone references run");
     if (!is_published(tier))
         return BRUME_OK;
     const std::string name = tier == Tier::sun ? "sun" : "fogshop";
     if (tier == Tier::sun && (m.term_count > 0 || scene_.gaussian_count > 0))
         return fail(
-            "tier: sun in a medium that is not constant; expected tier nodes: Sun et al. know homogeneous media only");
+            "method: sun in a medium that is not constant; expected method nodes: Sun et al. know homogeneous media only");
     if (m.phase[0] != 0 || m.phase[3] != 0)
-        return fail("tier: " + name + " with a phase function that is not isotropic; expected tier nodes, or g 0");
+        return fail("method: " + name + " with a phase function that is not isotropic; expected method nodes, or g 0");
     return BRUME_OK;
 }
 
@@ -125,8 +125,8 @@ brume_status Planner::plan_shadows()
         return BRUME_OK;
     const Tier tier = state_->parameters.tier;
     if (is_published(tier))
-        return fail(std::string("tier: ") + (tier == Tier::sun ? "sun" : "fogshop") +
-                    " with a shadow map; expected tier nodes: the published tiers know no shadows");
+        return fail(std::string("method: ") + (tier == Tier::sun ? "sun" : "fogshop") +
+                    " with a shadow map; expected method nodes: the published methods know no shadows");
     state_->shadowed = true;
     return BRUME_OK;
 }

@@ -141,7 +141,7 @@ brume_status Planner::plan_pyramid(State &state)
 
 bool of_calibrated(std::string_view parameter)
 {
-    return parameter == "kernel" || parameter == "levels" || parameter == "lobes" || parameter == "resolution";
+    return parameter == "method" || parameter == "levels" || parameter == "lobes" || parameter == "resolution";
 }
 
 brume_status Planner::drop_settings_of_paper()
@@ -152,7 +152,7 @@ brume_status Planner::drop_settings_of_paper()
         if (request_.parameters[i] != p.default_number && !of_calibrated(p.name))
             names += (names.empty() ? "" : ", ") + std::string(p.name);
     }
-    return names.empty() ? BRUME_OK : drop("settings", names + ": of kernel paper, which is not the one chosen");
+    return names.empty() ? BRUME_OK : drop("settings", names + ": of method paper, which is not the one chosen");
 }
 
 brume_status Planner::plan_paper(State &state)
@@ -231,8 +231,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         if (request_.backend != BRUME_BACKEND_CPU)
             return services_.fail(
                 host_, BRUME_ERROR_UNSUPPORTED,
-                paper ? "kernel: paper_reference on OpenGL; expected paper, or the CPU, on which alone references run"
-                      : "kernel: reference on OpenGL; expected calibrated, or the CPU, on which alone references run");
+                paper ? "method: paper_reference on OpenGL; expected paper, or the CPU, on which alone references run"
+                      : "method: reference on OpenGL; expected calibrated, or the CPU, on which alone references run");
         s = run("reference", "every pixel's light to every other, in double", 52, 30.0 * request_.width * request_.height);
         if (!s)
             s = plan_reference_passes(services_, host_, *state);

@@ -22,9 +22,9 @@ using real = float;
 
 const brume_parameter_info parameters[] = {
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1e6, 1, "strength", "radiance",
-     "Of the light at grazing angles", ""},
+     "Of the light at grazing angles", "", ""},
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 1, 100, 4, "sharpness", "",
-     "Power by which it falls off from the edge", ""},
+     "Power by which it falls off from the edge", "", ""},
 };
 
 enum Layer { layer_normal, layer_mask, layer_rim };

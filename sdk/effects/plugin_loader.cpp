@@ -113,6 +113,7 @@ Parameter copy_parameter(const brume_parameter_info &info, const std::string &in
     parameter.help = copy_text(info.help, what + ".help");
     parameter.unit = info.unit ? copy_text(info.unit, what + ".unit") : "";
     parameter.choices_text = info.choices ? copy_text(info.choices, what + ".choices") : "";
+    parameter.alias = info.alias && *info.alias ? copy_name(info.alias, what + ".alias") : "";
     parameter.type = info.type;
     parameter.default_value = info.default_number;
     switch (info.type) {
@@ -166,8 +167,9 @@ std::vector<Parameter> copy_parameters(const brume_effect &table)
               [&](const brume_parameter_info &info, const std::string &index) {
                   Parameter parameter = copy_parameter(info, index);
                   for (const Parameter &earlier : parameters)
-                      if (earlier.name == parameter.name)
-                          refuse("{}.name: {}; another parameter has that name", index, in_quotes(parameter.name));
+                      for (const std::string &name : {parameter.name, parameter.alias})
+                          if (!name.empty() && (name == earlier.name || name == earlier.alias))
+                              refuse("{}.name: {}; another parameter has that name", index, in_quotes(name));
                   parameters.push_back(std::move(parameter));
               });
     return parameters;

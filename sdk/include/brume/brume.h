@@ -196,8 +196,9 @@ typedef struct brume_parameter_info {
   const char *unit;      /* "" where there is none */
   const char *help;      /* one line */
   const char *choices;   /* "paper|reference"; "" unless type is CHOICE */
+  const char *alias;     /* another name by which it is taken, for scenes and programs that know it by that; "": none */
 } brume_parameter_info;
-#define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL}
+#define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL, NULL}
 BRUME_API void brume_parameter_info_init(brume_parameter_info *info, size_t size);
 BRUME_API brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
                                                 brume_parameter_info *info);

@@ -10,9 +10,10 @@ namespace {
 constexpr bool makes = std::string_view(TEST_CASE) == "makes_shade";
 const char *const product[] = {"shade"};
 
-const brume_parameter_info parameters[] = {
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1, 0.25, "share", "", "Of the red; 0: there is no shade", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0, 1, 0, "strays", "", "Publishes what it does not make", ""}};
+const brume_parameter_info parameters[] = {{sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1, 0.25, "share", "",
+                                            "Of the red; 0: there is no shade", "", ""},
+                                           {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0, 1, 0, "strays", "",
+                                            "Publishes what it does not make", "", ""}};
 
 struct Constants {
     float share;

@@ -6,10 +6,10 @@
 #include <brume/brume_plugin.h>
 
 static const brume_parameter_info parameters[] = {
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 10.0, 0.5, "strength", "stops", "How much", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_INTEGER, 1.0, 12.0, 4.0, "levels", "", "How many", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0.0, 0.0, 1.0, "masking", "", "Whether", NULL},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_CHOICE, 0.0, 0.0, 1.0, "kernel", NULL, "Which", "paper|reference"},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 10.0, 0.5, "strength", "stops", "How much", "", NULL},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_INTEGER, 1.0, 12.0, 4.0, "levels", "", "How many", "", NULL},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0.0, 0.0, 1.0, "masking", "", "Whether", NULL, ""},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_CHOICE, 0.0, 0.0, 1.0, "kernel", NULL, "Which", "paper|reference", "filter"},
 };
 
 static brume_status copy_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
