@@ -45,8 +45,9 @@ struct PlannedEffect {
     std::vector<brume_plugin_product> products{};
 };
 
-// Rehearsals are planned for their entries and offers: they hold no images or passes and cannot be executed.
-enum class Purpose { execution, rehearsal };
+// Rehearsals are planned for their entries and offers: they hold no images or passes and cannot be executed. Waking: for
+// whether each effect runs alone.
+enum class Purpose { execution, rehearsal, waking };
 
 }  // namespace brume
 
@@ -164,6 +165,6 @@ private:
     const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
     std::string failure_;
     bool warned_ = false;
-    const bool rehearsal_;
+    const bool rehearsal_, waking_;
     int64_t clamped_values_ = brume::not_counted;
 };

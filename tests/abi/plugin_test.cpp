@@ -215,6 +215,44 @@ TEST(ThreadSafety, UnsafePluginsAreNeverCalledTwiceAtOnce)
         thread.join();
 }
 
+// Where a plan has dropped an effect it is asked again for each other medium, but for what Gaussians do, and of those it
+// then sees one.
+TEST(Sleepers, AreAskedAgainForAnotherMediumOnly)
+{
+    Context context = context_with(BRUME_ODD_EFFECT_DIR);
+    const auto scene = [&](double absorption, int gaussians) {
+        std::string text =
+            R"({"brume": 1, "camera": {"vertical_fov": 50, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+            "effects": {"sleeper": {}}, "medium": {"absorption": )" +
+            std::to_string(absorption) + R"(, "density": [)";
+        for (int i = 0; i < gaussians; ++i)
+            text += (i ? "," : "") + std::string(R"({"type": "gaussian", "scale": 1, "amplitude": 1, "center": [0, 0, -)") +
+                    std::to_string(2 + i) + "]}";
+        return make_scene(context, text + "]}}");
+    };
+    const auto plans = [&] {
+        Scene same = scene(0.1, 1);
+        Plan plan = make_plan(context, same, ray_format(16, 12));
+        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+        EXPECT_EQ(brume_plan_get_entry(plan.get(), 0, &entry), BRUME_OK);
+        return std::stoi(entry.reason);
+    };
+    Scene first = scene(0.1, 1);
+    Plan plan = make_plan(context, first, ray_format(16, 12));
+    const auto update = [&](double absorption, int gaussians) {
+        Scene next = scene(absorption, gaussians);
+        return brume_plan_update(plan.get(), next.get(), nullptr);
+    };
+    const int before = plans();
+    for (int i = 0; i < 5; ++i)
+        EXPECT_EQ(update(0.1, 100 + 20 * i), BRUME_OK) << message(context.get());
+    EXPECT_EQ(plans(), before + 1);
+    for (int i = 0; i < 5; ++i)
+        EXPECT_EQ(update(0.2 + 0.01 * i, 200), BRUME_OK) << message(context.get());
+    EXPECT_EQ(plans(), before + 2 + 5);
+    expect_status(context.get(), update(0.6, 200), BRUME_ERROR_FORMAT, "sleeper: dropped when planned, it would run now");
+}
+
 // A calibration measures what strangers' effects do, too, and goes on where one cannot be planned.
 TEST(Calibration, MeasuresStrangers)
 {

@@ -567,8 +567,8 @@ BRUME_API void brume_plan_destroy(brume_plan plan);
    Cost: a copy of the scene's values, by their number, into memory that the plan keeps: once warm, moving lights and cameras by
    brume_scene_set_lights, _set_camera, this and the frame allocate nothing. Gaussians are not copied, but brume_scene_set_medium
    makes them anew. Where the plan dropped an effect, and the medium but for its Gaussians, metres_per_unit, the luminance weights or
-   the format's distances differ from the last, the effects plan once more to see that it is dropped still: about what
-   brume_plan_create costs without its images. docs/accuracy.md has figures. */
+   the format's distances differ from the last, the effects plan once more to see that it is dropped still, without going
+   through Gaussians and lights. docs/accuracy.md has figures. */
 BRUME_API brume_status brume_plan_update(brume_plan plan, brume_scene scene, const brume_format *format);
 
 typedef struct brume_plan_info {

@@ -387,7 +387,7 @@ typedef struct brume_effect {
      zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian densities, how
      many coefficients the environment has, and whether there are lights. An effect is dropped for reasons that stay as planned, or
      for what the medium but its Gaussians, metres_per_unit or the format's distances are: only where these differ does the host ask
-     by another plan() whether it would run now. */
+     by another plan() whether it would run now, of a scene with one Gaussian at most and one light of each shadow_kind. */
   brume_status (*plan)(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state);
   brume_status (*execute)(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame);
   void (*destroy)(void *state); /* state may be NULL */
