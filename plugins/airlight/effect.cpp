@@ -12,8 +12,10 @@
 #include "orders.h"
 #include "passes.h"
 #include "scene_maths.hpp"
+#include "scenes.h"
 #include "settings.h"
 #include "state.h"
+#include "work.h"
 
 namespace airlight {
 namespace {
@@ -49,22 +51,27 @@ public:
     brume_status plan(std::unique_ptr<State> &out);
 
 private:
-    brume_status entry(bool runs, const char *name, const std::string &reason, double bytes, double operations)
+    brume_status run(const char *name, const std::string &reason, double bytes, const Work &work)
     {
-        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        const brume_plugin_entry e = running(name, reason, bytes, work);
         return services_.add_entry(host_, &e);
     }
-    brume_status drop(const char *name, const std::string &reason) { return entry(false, name, reason, 0, 0); }
+    brume_status drop(const char *name, const std::string &reason)
+    {
+        const brume_plugin_entry e{sizeof e, 0, name, reason.c_str(), 0, 0, 0, 0};
+        return services_.add_entry(host_, &e);
+    }
     brume_status fail(const std::string &message) { return services_.fail(host_, BRUME_ERROR_UNSUPPORTED, message.c_str()); }
 
     brume_status check_tier();
     brume_status explain_orders();
     brume_status plan_shadows();
     brume_status need_camera();
-    double gather_operations() const;
+    Work gather_work() const;
+    double nanoseconds(const Work &work) const;
     brume_status plan_gather();
     const char *why_unlit(bool dense) const;
-    bool takes_maps(const MapsOffer &offer, double other_operations) const;
+    bool takes_maps(const MapsOffer &offer, const Work &other) const;
 
     const brume_services &services_;
     brume_host host_;
@@ -80,15 +87,15 @@ brume_status Planner::check_tier()
     const Tier tier = state_->parameters.tier;
     const auto &m = *scene_.medium;
     if (tier == Tier::reference && request_.backend != BRUME_BACKEND_CPU)
-        return fail("tier: reference on OpenGL; expected nodes, or the CPU, on which alone references run");
+        return fail("method: reference on OpenGL; expected nodes, or the CPU, on which alone references run");
     if (!is_published(tier))
         return BRUME_OK;
     const std::string name = tier == Tier::sun ? "sun" : "fogshop";
     if (tier == Tier::sun && (m.term_count > 0 || scene_.gaussian_count > 0))
         return fail(
-            "tier: sun in a medium that is not constant; expected tier nodes: Sun et al. know homogeneous media only");
+            "method: sun in a medium that is not constant; expected method nodes: Sun et al. know homogeneous media only");
     if (m.phase[0] != 0 || m.phase[3] != 0)
-        return fail("tier: " + name + " with a phase function that is not isotropic; expected tier nodes, or g 0");
+        return fail("method: " + name + " with a phase function that is not isotropic; expected method nodes, or g 0");
     return BRUME_OK;
 }
 
@@ -118,8 +125,8 @@ brume_status Planner::plan_shadows()
         return BRUME_OK;
     const Tier tier = state_->parameters.tier;
     if (is_published(tier))
-        return fail(std::string("tier: ") + (tier == Tier::sun ? "sun" : "fogshop") +
-                    " with a shadow map; expected tier nodes: the published tiers know no shadows");
+        return fail(std::string("method: ") + (tier == Tier::sun ? "sun" : "fogshop") +
+                    " with a shadow map; expected method nodes: the published methods know no shadows");
     state_->shadowed = true;
     return BRUME_OK;
 }
@@ -140,30 +147,35 @@ brume_status Planner::need_camera()
     return BRUME_OK;
 }
 
-// Of one evaluation, as brume_plugin_entry counts them; measured for tier `nodes`.
-double Planner::gather_operations() const
+// Of one evaluation; measured for tier `nodes`.
+Work Planner::gather_work() const
 {
     const Parameters &p = state_->parameters;
     const double lights = scene_.light_count;
     const Encounters met = encounters(scene_, state_->width, state_->height);
     if (is_published(p.tier))
-        return 100 + 150 * lights + met.of_sight * (100 + 150 * lights);
+        return {100 + 150 * lights + met.of_sight * (100 + 150 * lights)};
     const int finer = p.max_error > 0.05 ? 0 : p.max_error >= 0.005 ? 1 : 2;
     constexpr double of_terms[] = {1, 1.2, 1.5}, of_gaussians[] = {1, 2.3, 5};
-    // The CPU has a panel's nodes side by side; Mesa's software GL vectorises cells well and panels badly.
-    const double of_light = request_.backend == BRUME_BACKEND_GL ? 6700 : 500,
-                 of_term = request_.backend == BRUME_BACKEND_GL ? 5100 : 2000;
+    constexpr Work of_light{0, 0, 333}, of_term{1750, 0, 167};
     const double of_orders = p.orders == Orders::all && !takes_grid(*state_, scene_) ? 3 : 1;
-    double operations = 100 + of_orders * of_terms[finer] * lights * (of_light + of_term * scene_.medium->term_count);
-    if (scene_.gaussian_count > 0)
-        operations +=
-            of_gaussians[finer] * (5000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light);
-    return operations;
+    const Work work =
+        Work{100} + of_orders * of_terms[finer] * lights * (of_light + double(scene_.medium->term_count) * of_term);
+    if (scene_.gaussian_count == 0)
+        return work;
+    return work + Work{of_gaussians[finer] *
+                       (5000 * std::min(met.of_sight, 1.0) + 250 * met.of_sight + 1500 * lights * met.of_light)};
+}
+
+double Planner::nanoseconds(const Work &work) const
+{
+    const brume_plugin_entry entry = running("", "", 0, work);
+    return services_.nanoseconds(host_, &entry);
 }
 
 // Maps serve many Gaussians; where there are few, nodes are both nearer and faster. Where the grid cannot be as fine as the
 // Gaussians are small, they are not taken unasked.
-bool Planner::takes_maps(const MapsOffer &offer, double other_operations) const
+bool Planner::takes_maps(const MapsOffer &offer, const Work &other) const
 {
     if (scene_.gaussian_count == 0 || scene_.light_count == 0)
         return false;
@@ -171,7 +183,7 @@ bool Planner::takes_maps(const MapsOffer &offer, double other_operations) const
     if (tier != Tier::automatic)
         return tier == Tier::maps;
     // Of Gaussians that come with the frames nobody knows how many; nodes would take minutes for some hundreds.
-    return offer.suits && (!scene_.gaussians || 2 * offer.operations() < other_operations);
+    return offer.suits && (!scene_.gaussians || 2 * nanoseconds(offer.work()) < nanoseconds(other));
 }
 
 brume_status Planner::plan_gather()
@@ -197,18 +209,18 @@ brume_status Planner::plan_gather()
                                        (values + BRUME_DATA_WIDTH - 1) / BRUME_DATA_WIDTH, 4, &state.surroundings))
             return s;
         if (brume_status s =
-                entry(true, "around",
-                      state.parameters.ground == Ground::automatic ? "what the picture shows of surfaces around each lamp"
-                                                                   : "what is around each lamp, as ground says",
-                      4096, scene_.light_count * 6.0 * 1296 * 40))
+                run("around",
+                    state.parameters.ground == Ground::automatic ? "what the picture shows of surfaces around each lamp"
+                                                                 : "what is around each lamp, as ground says",
+                    4096, {scene_.light_count * 6.0 * 1296 * 40}))
             return s;
     }
     if (brume_status s = plan_tables(services_, host_, scene_, state))
         return s;
     const double pixels = double(width) * height;
-    const double operations = pixels * gather_operations();
+    const Work work = pixels * gather_work();
     const MapsOffer maps = offer_maps(request_, state);
-    state.maps.used = takes_maps(maps, operations);
+    state.maps.used = takes_maps(maps, work);
     state.scattered.used = takes_grid(state, scene_);
     if (state.maps.used)
         if (brume_status s = plan_maps(services_, host_, scene_, maps, state))
@@ -219,10 +231,10 @@ brume_status Planner::plan_gather()
     state.has_blobs = state.parameters.tier == Tier::fogshop && scene_.gaussian_count > 0;
     if (state.has_blobs)
         if (brume_status s =
-                entry(true, "blobs", "density from the camera and each light to each Gaussian, when something moved", 0, 0))
+                run("blobs", "density from the camera and each light to each Gaussian, when something moved", 0, {}))
             return s;
-    if (brume_status s = entry(
-            true, state.maps.used ? maps_gather : "gather",
+    if (brume_status s = run(
+            state.maps.used ? maps_gather : "gather",
             std::to_string(scene_.light_count) + (scene_.light_count == 1 ? " light" : " lights") +
                 (state.environment_scatters ? " and the environment" : "") +
                 (state.parameters.orders == Orders::all
@@ -231,7 +243,7 @@ brume_status Planner::plan_gather()
                      : " scattered once") +
                 (state.shadowed ? ", in the shadows of solid things" : "") +
                 (reduction > 1 ? ", at every " + std::string(reduction == 2 ? "second" : "fourth") + " pixel each way" : ""),
-            pixels * (4 + 16), state.maps.used ? maps.of_pixels : operations))
+            pixels * (4 + 16), state.maps.used ? maps.of_pixels : work))
         return s;
     if (!state.scattered.used)
         return BRUME_OK;
@@ -275,9 +287,9 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         return s;
     const double pixels = double(state.width) * state.height;
     if (brume_status s =
-            entry(true, "compose", state.attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
-                  pixels * (16 + 8 + 16 + (state.layered ? 16 : 0) + (state.lit ? 16 : 0)),
-                  pixels * ((state.parameters.reduction > 1 ? 100 : 60) + (state.attenuates ? 20 : 0))))
+            run("compose", state.attenuates ? "attenuates the image and adds the airlight" : "adds the airlight",
+                pixels * (16 + 8 + 16 + (state.layered ? 16 : 0) + (state.lit ? 16 : 0)),
+                {pixels * ((state.parameters.reduction > 1 ? 100 : 60) + (state.attenuates ? 20 : 0))}))
         return s;
     if (brume_status s = create_passes(services_, host_, outputs_, state))
         return s;
@@ -338,29 +350,39 @@ uint32_t uses_with(const double *values, uint32_t index)
 BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
 {
     using namespace airlight;
-    static const brume_effect effect{
-        sizeof(brume_effect),
-        BRUME_PLUGIN_ABI,
-        "airlight",
-        "adds what the scene's lights scatter toward the camera (Zhou et al. 2007, Sun et al. 2005)",
-        200,
-        BRUME_THREADS_SAFE,
-        BRUME_WANTED_WITH_LIGHTS,
-        uint32_t(parameter_table().size()),
-        layer_count,
-        uint32_t(std::size(made)),
-        product_count,
-        0,
-        parameter_table().data(),
-        layer_table,
-        made,
-        used,
-        plan,
-        execute,
-        [](void *state) { delete static_cast<State *>(state); },
-        makes_with,
-        offer,
-        settle,
-        uses_with};
+    static const std::vector<const char *> scenes = [] {
+        std::vector<const char *> texts;
+        for (const std::string &text : calibration_scenes())
+            texts.push_back(text.c_str());
+        return texts;
+    }();
+    static const brume_effect effect = [] {
+        brume_effect e{};
+        e.struct_size = sizeof e;
+        e.abi = BRUME_PLUGIN_ABI;
+        e.name = "airlight";
+        e.help = "adds what the scene's lights scatter toward the camera (Zhou et al. 2007, Sun et al. 2005)";
+        e.order = 200;
+        e.thread_safety = BRUME_THREADS_SAFE;
+        e.wanted = BRUME_WANTED_WITH_LIGHTS;
+        e.parameters = parameter_table().data();
+        e.parameter_count = uint32_t(parameter_table().size());
+        e.layers = layer_table;
+        e.layer_count = layer_count;
+        e.makes = made;
+        e.make_count = uint32_t(std::size(made));
+        e.uses = used;
+        e.use_count = product_count;
+        e.plan = plan;
+        e.execute = execute;
+        e.destroy = [](void *state) { delete static_cast<State *>(state); };
+        e.makes_with = makes_with;
+        e.offer = offer;
+        e.settle = settle;
+        e.uses_with = uses_with;
+        e.scenes = scenes.data();
+        e.scene_count = uint32_t(scenes.size());
+        return e;
+    }();
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;
 }

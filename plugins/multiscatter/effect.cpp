@@ -34,7 +34,7 @@ private:
     }
     brume_status entry(bool runs, const char *name, const std::string &reason, double bytes, double operations)
     {
-        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations), 0, 0};
         return services_.add_entry(host_, &e);
     }
     brume_status image(const char *label, int width, int height, int channels, brume_plugin_image &out)
@@ -141,7 +141,7 @@ brume_status Planner::plan_pyramid(State &state)
 
 bool of_calibrated(std::string_view parameter)
 {
-    return parameter == "kernel" || parameter == "levels" || parameter == "lobes" || parameter == "resolution";
+    return parameter == "method" || parameter == "levels" || parameter == "lobes" || parameter == "resolution";
 }
 
 brume_status Planner::drop_settings_of_paper()
@@ -152,7 +152,7 @@ brume_status Planner::drop_settings_of_paper()
         if (request_.parameters[i] != p.default_number && !of_calibrated(p.name))
             names += (names.empty() ? "" : ", ") + std::string(p.name);
     }
-    return names.empty() ? BRUME_OK : drop("settings", names + ": of kernel paper, which is not the one chosen");
+    return names.empty() ? BRUME_OK : drop("settings", names + ": of method paper, which is not the one chosen");
 }
 
 brume_status Planner::plan_paper(State &state)
@@ -231,8 +231,8 @@ brume_status Planner::plan(std::unique_ptr<State> &out)
         if (request_.backend != BRUME_BACKEND_CPU)
             return services_.fail(
                 host_, BRUME_ERROR_UNSUPPORTED,
-                paper ? "kernel: paper_reference on OpenGL; expected paper, or the CPU, on which alone references run"
-                      : "kernel: reference on OpenGL; expected calibrated, or the CPU, on which alone references run");
+                paper ? "method: paper_reference on OpenGL; expected paper, or the CPU, on which alone references run"
+                      : "method: reference on OpenGL; expected calibrated, or the CPU, on which alone references run");
         s = run("reference", "every pixel's light to every other, in double", 52, 30.0 * request_.width * request_.height);
         if (!s)
             s = plan_reference_passes(services_, host_, *state);
@@ -289,6 +289,10 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         {size, BRUME_LAYER_OUTPUT, 1, 0, "blur_radius", "deviation of the blur of each pixel's light, in pixels"}};
     static constexpr const char *uses[use_count] = {"density", "density_rgb", "gaussian_density", "visible_lights"};
     static constexpr const char *makes[] = {"attenuated_radiance", "environment_scattering"};
+    // None of method paper: its passes have the same names, and take another time an operation.
+    static constexpr const char *scenes[] = {
+        R"({"brume":1,"camera":{"vertical_fov":50},"medium":{"scattering":[0.03,0.035,0.04],"absorption":0.002,"g":0.8}})",
+        R"({"brume":1,"camera":{"vertical_fov":50},"medium":{"scattering":0.03}})"};
     static const brume_effect effect = [] {
         brume_effect e{};
         e.struct_size = sizeof e;
@@ -313,6 +317,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.execute = execute;
         e.destroy = [](void *state) { delete static_cast<State *>(state); };
         e.offer = offer;
+        e.scenes = scenes;
+        e.scene_count = uint32_t(std::size(scenes));
         return e;
     }();
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;

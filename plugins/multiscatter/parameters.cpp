@@ -6,7 +6,7 @@ namespace multiscatter {
 namespace {
 
 enum Index {
-    kernel,
+    method,
     kernel_size,
     fetch,
     levels,
@@ -29,12 +29,13 @@ enum Index {
 using namespace brume_parameters;
 
 constexpr brume_parameter_info table[count] = {
-    choice("kernel", "paper|reference|calibrated|paper_reference", 2,
+    choice("method", "paper|reference|calibrated|paper_reference", 2,
            "calibrated: light spreads as Monte Carlo says it does; paper: the hierarchical filter of Iser 2018, which the "
            "other "
            "parameters but `levels` are of; reference, paper_reference: what these two approximate, pixel against pixel in "
            "double, CPU "
-           "only, minutes for small frames"),
+           "only, minutes for small frames",
+           "kernel"),
     choice("kernel_size", "2x2|4x4|6x6", 1, "kernel between pyramid levels; larger is smoother and slower"),
     choice("fetch", "linear_bilinear|linear_bicubic|cubic_bicubic", 1,
            "interpolation across and within levels; linear_bilinear shows blocks in motion"),
@@ -54,9 +55,9 @@ constexpr brume_parameter_info table[count] = {
     number("separation_level", 0, 1, 0.7, "", "level, as a fraction of K, from which separated light takes its deviation"),
     choice(
         "lobes", "every|second|third", 1,
-        "kernel calibrated: levels of the pyramid at which light stays; fewer are cheaper and follow the spread less well"),
+        "method calibrated: levels of the pyramid at which light stays; fewer are cheaper and follow the spread less well"),
     choice("resolution", "full|half|quarter", 0,
-           "kernel calibrated: pixels each way at which light is scattered, brought to the others by their depth"),
+           "method calibrated: pixels each way at which light is scattered, brought to the others by their depth"),
 };
 
 }  // namespace
@@ -69,7 +70,7 @@ std::span<const brume_parameter_info> parameter_table()
 Parameters read_parameters(const double *values)
 {
     Parameters p{};
-    p.kernel = Kernel(int(values[kernel]));
+    p.kernel = Kernel(int(values[method]));
     p.taps = 2 + 2 * int(values[kernel_size]);
     p.levels = int(values[levels]);
     p.step = 1 + int(values[lobes]);
@@ -91,7 +92,7 @@ Parameters read_parameters(const double *values)
 
 void choose(double *values, Kernel chosen, int step, int reduction)
 {
-    values[kernel] = double(chosen);
+    values[method] = double(chosen);
     values[lobes] = step - 1;
     values[resolution] = reduction == 4 ? 2 : reduction - 1;
 }

@@ -40,6 +40,16 @@ constexpr brume_layer_info layer_table[] = {
 };
 static_assert(std::size(layer_table) == layer_count);
 
+// What there is on lights' ways.
+constexpr const char *calibration_scenes[] = {
+    R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium":{"scattering":[0.03,0.035,0.04],"absorption":0.002,"g":0.8},
+        "lights":[{"type":"point","position":[2,1,-12],"intensity":40},{"type":"point","position":[-4,2,-20],"intensity":40}]})",
+    R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+        "medium":{"scattering":0.05,"density":[{"type":"exponential","value":1,"falloff":0.2},
+          {"type":"gaussian","center":[0,0,-10],"scale":0.3,"amplitude":2},{"type":"gaussian","center":[2,-2,-8],"scale":0.5,"amplitude":2}]},
+        "lights":[{"type":"point","position":[2,1,-12],"intensity":40},{"type":"point","position":[-4,2,-20],"intensity":40}]})"};
+
 constexpr const char *used[] = {"lights", "light_gaussians", "density_rgb", "light_shadows"};
 static_assert(std::size(used) == product_count);
 
@@ -64,7 +74,7 @@ public:
 private:
     brume_status entry(bool runs, const char *name, const std::string &reason, double bytes, double operations)
     {
-        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+        brume_plugin_entry e{sizeof e, runs ? 1u : 0u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations), 0, 0};
         return services_.add_entry(host_, &e);
     }
     brume_status image(const char *label, brume_plugin_image &out)
@@ -341,6 +351,8 @@ BRUME_PLUGIN_EXPORT const brume_effect *brume_plugin_effect(uint32_t host_abi)
         e.plan = plan;
         e.execute = execute;
         e.destroy = [](void *state) { delete static_cast<State *>(state); };
+        e.scenes = calibration_scenes;
+        e.scene_count = uint32_t(std::size(calibration_scenes));
         return e;
     }();
     return host_abi == BRUME_PLUGIN_ABI ? &effect : nullptr;

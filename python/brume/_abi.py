@@ -63,7 +63,7 @@ class brume_effect_info(Structure):
 class brume_parameter_info(Structure):
     _fields_ = [("struct_size", c_uint32), ("type", c_uint32), ("minimum", c_double), ("maximum", c_double),
                 ("default_number", c_double), ("name", c_char_p), ("unit", c_char_p), ("help", c_char_p),
-                ("choices", c_char_p)]
+                ("choices", c_char_p), ("alias", c_char_p)]
 
 
 class brume_layer_info(Structure):

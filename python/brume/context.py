@@ -46,6 +46,7 @@ class Parameter:
     choices: Tuple[str, ...]
     unit: str
     help: str
+    alias: str  #: another name by which it is taken; "" where there is none
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,7 +87,8 @@ def _parameter(info: _abi.brume_parameter_info) -> Parameter:
         default = int(info.default_number)
     ranged = kind in ("number", "integer")
     return Parameter(_library.text(info.name), kind, default, info.minimum if ranged else None,
-                     info.maximum if ranged else None, choices, _library.text(info.unit), _library.text(info.help))
+                     info.maximum if ranged else None, choices, _library.text(info.unit), _library.text(info.help),
+                     _library.text(info.alias))
 
 
 class Context:

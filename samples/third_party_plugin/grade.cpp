@@ -21,10 +21,10 @@ using real = float;
 #include <brume/maths/formulas_end.hpp>
 
 const brume_parameter_info parameters[] = {
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, -20, 20, 0, "exposure", "stops", "Brightens by powers of two",
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, -20, 20, 0, "exposure", "stops", "Brightens by powers of two", "",
      ""},
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 4, 1, "saturation", "",
-     "Distance of the colours from their grey: 0 is grey, 1 leaves them", ""},
+     "Distance of the colours from their grey: 0 is grey, 1 leaves them", "", ""},
 };
 
 // What the shader has as uniforms of these names.

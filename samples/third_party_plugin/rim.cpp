@@ -22,9 +22,9 @@ using real = float;
 
 const brume_parameter_info parameters[] = {
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1e6, 1, "strength", "radiance",
-     "Of the light at grazing angles", ""},
+     "Of the light at grazing angles", "", ""},
     {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 1, 100, 4, "sharpness", "",
-     "Power by which it falls off from the edge", ""},
+     "Power by which it falls off from the edge", "", ""},
 };
 
 enum Layer { layer_normal, layer_mask, layer_rim };
@@ -81,9 +81,9 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
 {
     const bool needed = request->parameters[0] > 0;
     const uint64_t pixels = needed ? uint64_t(request->width) * uint64_t(request->height) : 0;
-    const brume_plugin_entry entry{sizeof entry, needed ? 1u : 0u,
-                                   "rim",        needed ? "edges show light from behind" : "strength 0",
-                                   pixels * 60,  pixels * 40};
+    const brume_plugin_entry entry{
+        sizeof entry, needed ? 1u : 0u, "rim", needed ? "edges show light from behind" : "strength 0",
+        pixels * 60,  pixels * 40,      0,     0};
     if (const brume_status status = services->add_entry(host, &entry); status || !needed)
         return status;
     if (const brume_status status =

@@ -230,7 +230,7 @@ brume_status brume_parameter_get_info(brume_context context, const char *effect,
         const Parameter &p = found.parameters[index];
         write_struct(info,
                      {0, p.type, p.minimum, p.maximum, p.default_value, p.name.c_str(), p.unit.c_str(), p.help.c_str(),
-                      p.choices_text.c_str()},
+                      p.choices_text.c_str(), p.alias.c_str()},
                      "brume_parameter_info");
     });
 }

@@ -11,7 +11,7 @@ namespace brume {
 
 // One parameter of an effect's table, checked and copied so that a plugin's memory cannot surprise us.
 struct Parameter {
-    std::string name, unit, help;
+    std::string name, alias, unit, help;
     uint32_t type = BRUME_PARAMETER_NUMBER;
     double minimum = 0, maximum = 0, default_value = 0;
     std::string choices_text;
@@ -33,6 +33,7 @@ struct Effect {
     std::vector<Parameter> parameters;
     std::vector<Layer> layers;
     std::vector<std::string> makes, uses;  // products
+    std::vector<std::string> scenes;       // texts, to calibrate with
     const brume_effect *table = nullptr;
     decltype(brume_effect::offer) offer = nullptr;  // null in tables that are too short for it, as the next
     decltype(brume_effect::makes_with) makes_with = nullptr;
@@ -59,7 +60,7 @@ private:
     std::vector<std::string> directories_;
 };
 
-// Index of a parameter; throws Error(BRUME_ERROR_NOT_FOUND) naming the nearest.
+// Index of the parameter of that name or alias; throws Error(BRUME_ERROR_NOT_FOUND) naming the nearest.
 size_t find_parameter(const Effect &effect, const std::string &name);
 
 // A parameter's value from text or a number, checked against type and range; throws Error(BRUME_ERROR_ARGUMENT) with

@@ -40,7 +40,7 @@ size_t find_parameter(const Effect &effect, const std::string &name)
 {
     std::vector<std::string> names;
     for (const Parameter &parameter : effect.parameters) {
-        if (parameter.name == name)
+        if (parameter.name == name || (!name.empty() && parameter.alias == name))
             return names.size();
         names.push_back(parameter.name);
     }

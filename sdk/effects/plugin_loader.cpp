@@ -113,6 +113,7 @@ Parameter copy_parameter(const brume_parameter_info &info, const std::string &in
     parameter.help = copy_text(info.help, what + ".help");
     parameter.unit = info.unit ? copy_text(info.unit, what + ".unit") : "";
     parameter.choices_text = info.choices ? copy_text(info.choices, what + ".choices") : "";
+    parameter.alias = info.alias && *info.alias ? copy_name(info.alias, what + ".alias") : "";
     parameter.type = info.type;
     parameter.default_value = info.default_number;
     switch (info.type) {
@@ -166,8 +167,9 @@ std::vector<Parameter> copy_parameters(const brume_effect &table)
               [&](const brume_parameter_info &info, const std::string &index) {
                   Parameter parameter = copy_parameter(info, index);
                   for (const Parameter &earlier : parameters)
-                      if (earlier.name == parameter.name)
-                          refuse("{}.name: {}; another parameter has that name", index, in_quotes(parameter.name));
+                      for (const std::string &name : {parameter.name, parameter.alias})
+                          if (!name.empty() && (name == earlier.name || name == earlier.alias))
+                              refuse("{}.name: {}; another parameter has that name", index, in_quotes(name));
                   parameters.push_back(std::move(parameter));
               });
     return parameters;
@@ -218,6 +220,17 @@ std::vector<std::string> copy_names(const char *const *names, uint32_t count, co
     return copies;
 }
 
+std::vector<std::string> copy_scenes(const brume_effect &table)
+{
+    const uint32_t count = table.scenes ? table.scene_count : 0;
+    if (count > most_of_others)
+        refuse("scenes: {} of them; expected at most {}", count, most_of_others);
+    for (uint32_t i = 0; i < count; ++i)
+        if (!table.scenes[i])
+            refuse("scenes[{}]: NULL; expected a scene file's text", i);
+    return {table.scenes, table.scenes + count};
+}
+
 void copy_table(const brume_effect *source, Effect &effect)
 {
     // Before all else: what lies behind it is another struct in another ABI.
@@ -242,6 +255,7 @@ void copy_table(const brume_effect *source, Effect &effect)
     effect.layers = copy_layers(table);
     effect.makes = copy_names(table.makes, table.make_count, "makes");
     effect.uses = copy_names(table.uses, table.use_count, "uses");
+    effect.scenes = copy_scenes(table);
     effect.table = source;
     effect.offer = table.offer;
     effect.makes_with = table.makes_with;

@@ -4,10 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/error.h"
+#include "effects/parameters.h"
 #include "plan/context.h"
 #include "plan/plan.h"
 
@@ -16,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds most_time(10);  // after which nothing more is begun
+constexpr std::chrono::seconds most_time(14);  // after which nothing more is begun
 constexpr int rounds = 3;
 
-// One of each kind of medium and light that passes cost differently for.
-constexpr const char *scenes[] = {
+// For effects that name no scenes of their own: one of each kind of density.
+const std::vector<std::string> usual_scenes = {
     R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
         "medium":{"scattering":[0.03,0.035,0.04],"absorption":0.002,"g":0.8},
         "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1},
@@ -34,30 +37,18 @@ constexpr const char *scenes[] = {
           {"type":"gaussian","center":[-6,0,-18],"scale":0.25,"amplitude":2},{"type":"gaussian","center":[2,-2,-8],"scale":0.5,"amplitude":2}]},
         "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}]})"};
 
-// So many Gaussians, and so large, that they are gathered from maps.
-std::string many_gaussians()
-{
-    std::string text =
-        R"({"brume":1,"camera":{"vertical_fov":50,"camera_to_world":[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
-            "lights":[{"type":"point","position":[2,1,-12],"intensity":40,"radius":0.1}],
-            "medium":{"scattering":0.05,"density":[)";
-    for (int i = 0; i < 60; ++i)
-        text += fmt::format(R"({}{{"type":"gaussian","center":[{},{},{}],"scale":{},"amplitude":0.5}})", i ? "," : "",
-                            i * 7 % 13 - 6, i * 5 % 7 - 3, -4 - i * 3 % 17, i % 2 ? 0.5 : 0.3);
-    return text + "]}}";
-}
-
 // The second so much larger that what a pass takes at its start and what it takes an operation can be told apart.
 constexpr std::pair<int, int> sizes[] = {{96, 54}, {320, 180}};
 
-// A floor that recedes under a sky, boxes on it, and lamps.
+// A floor that recedes under a sky, boxes on it, and lamps. Layers have one value, which may be a direction or a share.
 struct TestFrame {
-    std::vector<float> color, depth, output;
-    brume_image images[3];
+    std::vector<float> color, depth, output, layer;
+    brume_image images[4];
     brume_frame frame = BRUME_FRAME_INIT;
 
     TestFrame(int width, int height)
-        : color(size_t(width) * size_t(height) * 4, 0.2f), depth(size_t(width) * size_t(height)), output(color.size())
+        : color(size_t(width) * size_t(height) * 4, 0.2f), depth(size_t(width) * size_t(height)), output(color.size()),
+          layer(color.size(), 0.577f)
     {
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
@@ -68,8 +59,8 @@ struct TestFrame {
                 if ((x * 40 / width) % 7 == 2 && (y * 24 / height) % 6 == 3)
                     std::fill_n(color.begin() + ptrdiff_t(4 * i), 3, 60.0f);
             }
-        float *const data[] = {color.data(), depth.data(), output.data()};
-        for (int i = 0; i < 3; ++i) {
+        float *const data[] = {color.data(), depth.data(), output.data(), layer.data()};
+        for (int i = 0; i < 4; ++i) {
             images[i] = BRUME_IMAGE_INIT;
             images[i].width = width;
             images[i].height = height;
@@ -89,13 +80,34 @@ struct Sample {
 
 using Samples = std::map<std::pair<std::string, std::string>, std::vector<Sample>>;  // by effect and pass
 
-void measure(const std::shared_ptr<Context> &context, const Scene &scene, TestFrame &test, Clock::time_point end,
+// What is measured: an effect alone, with some parameters and layers, so that what others take is not measured for each.
+struct Case {
+    size_t offer = 0, place = 0;  // among the effect's offers and scenes
+    Scene scene;
+    std::vector<const Layer *> layers;
+};
+
+Format format_of(const Case &of, int width, int height)
+{
+    brume_format plain = BRUME_FORMAT_INIT;
+    plain.width = width;
+    plain.height = height;
+    Format format(plain);
+    for (const Layer *layer : of.layers)
+        format.input_layers.push_back({layer->name, 0});
+    return format;
+}
+
+void measure(const std::shared_ptr<Context> &context, const Case &of, TestFrame &test, Clock::time_point end,
              Samples &samples)
 {
-    brume_format format = BRUME_FORMAT_INIT;
-    format.width = test.images[0].width;
-    format.height = test.images[0].height;
-    brume_host_t plan(context, scene, format);
+    std::vector<brume_layer> layers;
+    for (const Layer *layer : of.layers)
+        for (uint32_t light = 0; light < (layer->flags & BRUME_LAYER_OF_LIGHT ? of.scene.lights.size() : 1); ++light)
+            layers.push_back({sizeof(brume_layer), 0, layer->name.c_str(), &test.images[3], light, 0});
+    test.frame.inputs = layers.data();
+    test.frame.input_count = uint32_t(layers.size());
+    brume_host_t plan(context, of.scene, format_of(of, test.images[0].width, test.images[0].height));
     std::vector<double> least(plan.entries().size(), INFINITY);
     for (int round = 0; round < rounds && (round == 0 || Clock::now() < end); ++round) {
         plan.execute(test.frame);
@@ -112,36 +124,76 @@ void measure(const std::shared_ptr<Context> &context, const Scene &scene, TestFr
     }
 }
 
-// Each offer of each scene's effects alone, so that what other effects take is not measured again for each; cheap ones
-// first.
-std::vector<Scene> cases(const std::shared_ptr<Context> &context)
+bool keeps(const EffectSettings &asked, const Effect &effect, const Offer &offer)
 {
-    std::vector<std::pair<size_t, Scene>> all;
-    brume_format format = BRUME_FORMAT_INIT;
-    format.width = sizes[0].first;
-    format.height = sizes[0].second;
-    std::vector<std::string> texts(std::begin(scenes), std::end(scenes));
-    texts.push_back(many_gaussians());
-    for (const std::string &text : texts) {
-        const Scene scene = parse_scene(text, "calibration", context->effects);
-        const brume_host_t open(context, scene, format, Purpose::rehearsal);
-        for (const PlannedEffect &planned : open.effects())
-            for (size_t offer = 0; offer < planned.offers.size(); ++offer) {
-                if (planned.offers[offer].error == 0)
+    return std::all_of(asked.parameters.begin(), asked.parameters.end(), [&](const auto &parameter) {
+        return offer.parameters[find_parameter(effect, parameter.first)] == parameter.second;
+    });
+}
+
+// Of one effect in one scene: with each of its offers that leave what the scene sets, or else as the scene sets it.
+void add_cases(const std::shared_ptr<Context> &context, const Effect &effect, Case of, std::vector<Case> &all)
+{
+    const brume_host_t open(context, of.scene, format_of(of, sizes[0].first, sizes[0].second), Purpose::rehearsal);
+    if (open.does_nothing())
+        return;
+    const EffectSettings asked = of.scene.effects[0];
+    const size_t before = all.size();
+    const std::vector<Offer> &offers = open.effects()[0].offers;
+    for (of.offer = 0; of.offer < offers.size(); ++of.offer) {
+        const Offer &offer = offers[of.offer];
+        if (offer.error == 0 || !keeps(asked, effect, offer))
+            continue;
+        for (size_t i = 0; i < effect.parameters.size(); ++i)
+            of.scene.effects[0].parameters[effect.parameters[i].name] = offer.parameters[i];
+        all.push_back(of);
+    }
+    if (all.size() > before)
+        return;
+    of.offer = 0;
+    of.scene.effects[0] = asked;
+    all.push_back(std::move(of));
+}
+
+// Of each effect, with the layers that it needs, then with all of the frame's size that it reads. Cheap ones first, and of
+// these the first of every effect.
+std::vector<Case> cases(const std::shared_ptr<Context> &context)
+{
+    std::vector<Case> all;
+    for (const Effect &effect : context->effects.all()) {
+        if (!effect.refusal.empty())
+            continue;
+        const auto layers = [&](bool needed) {
+            std::vector<const Layer *> some;
+            for (const Layer &layer : effect.layers)
+                if (layer.flags & BRUME_LAYER_INPUT && !(layer.flags & BRUME_LAYER_ANY_SIZE) &&
+                    (!needed || layer.flags & BRUME_LAYER_NEEDED))
+                    some.push_back(&layer);
+            return some;
+        };
+        const auto needed = layers(true), read = layers(false);
+        const std::vector<std::string> &texts = effect.scenes.empty() ? usual_scenes : effect.scenes;
+        for (size_t place = 0; place < texts.size(); ++place)
+            for (const auto *given : {&needed, &read}) {
+                if (given == &read && read == needed)
                     continue;
-                Scene alone = scene;
-                alone.effects = {{planned.effect->name, {}}};
-                alone.effects_named = true;
-                for (size_t i = 0; i < planned.effect->parameters.size(); ++i)
-                    alone.effects[0].parameters[planned.effect->parameters[i].name] = planned.offers[offer].parameters[i];
-                all.emplace_back(offer, std::move(alone));
+                // One effect that cannot be planned, a stranger's say, is no reason not to measure the others.
+                try {
+                    Case of{0, place, parse_scene(texts[place], effect.name + ", scene to calibrate with", context->effects),
+                            *given};
+                    std::erase_if(of.scene.effects, [&](const EffectSettings &s) { return s.name != effect.name; });
+                    if (of.scene.effects.empty())
+                        of.scene.effects.push_back({effect.name, {}});
+                    of.scene.effects_named = true;
+                    add_cases(context, effect, std::move(of), all);
+                } catch (const Error &error) {
+                    context->log(BRUME_LOG_WARNING, fmt::format("calibration: {}", error.what()));
+                }
             }
     }
-    std::stable_sort(all.begin(), all.end(), [](auto &a, auto &b) { return a.first < b.first; });
-    std::vector<Scene> sorted;
-    for (auto &[offer, scene] : all)
-        sorted.push_back(std::move(scene));
-    return sorted;
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Case &a, const Case &b) { return std::tie(a.offer, a.place) < std::tie(b.offer, b.place); });
+    return all;
 }
 
 // The line through two samples, or through one without a start, that all of them are nearest to as ratios.
@@ -178,16 +230,22 @@ void calibrate(const std::shared_ptr<Context> &context)
     const auto end = Clock::now() + most_time;
     Samples samples;
     TestFrame small(sizes[0].first, sizes[0].second), large(sizes[1].first, sizes[1].second);
-    const std::vector<Scene> scenes = cases(context);
+    const std::vector<Case> measured_cases = cases(context);
     Progress &progress = context->progress;
-    const double parts = 2 * double(scenes.size());
+    const double parts = 2 * double(measured_cases.size());
     double part = 0;
-    for (const Scene &scene : scenes)
+    for (const Case &of : measured_cases)
         for (TestFrame *test : {&small, &large}) {
             if (Clock::now() >= end)
                 break;
             progress.enter_part(part / parts, (part + 1) / parts);
-            measure(context, scene, *test, end, samples);
+            try {
+                measure(context, of, *test, end, samples);
+            } catch (const Error &error) {
+                if (error.status() != BRUME_ERROR_PLUGIN && error.status() != BRUME_ERROR_UNSUPPORTED)
+                    throw;
+                context->log(BRUME_LOG_WARNING, fmt::format("calibration: {}", error.what()));
+            }
             ++part;
             progress.report(1);
             progress.throw_if_cancelled();

@@ -90,13 +90,13 @@ void HostProducts::plan(brume_host_t &host, const std::vector<std::string> &uses
                 const std::string reason = fmt::format(
                     "{} of {} Gaussians outside the frustum of the planned view: its rays skip them, those of lights do not",
                     scene.gaussian_count - estimate.seen, scene.gaussian_count);
-                host.add_entry({sizeof(brume_plugin_entry), 0, "gaussians", reason.c_str(), 0, 0});
+                host.add_entry({sizeof(brume_plugin_entry), 0, "gaussians", reason.c_str(), 0, 0, 0, 0});
             }
         }
         // The CPU goes through lists by rows of pixels.
         const double of_pixel = host.backend_kind() == BRUME_BACKEND_CPU ? 80 + 8 * length : 10 + 40 * length;
         host.add_entry({sizeof(brume_plugin_entry), 1, "gaussians", "density of the Gaussians along each pixel's ray",
-                        uint64_t(pixels * (4 + 8)), uint64_t(pixels * of_pixel)});
+                        uint64_t(pixels * (4 + 8)), uint64_t(pixels * of_pixel), 0, 0});
         gaussian_pass_ = make_pass(host, "gaussians", "gaussian_density.comp", "", gaussian_slots, gaussian_density_rows());
     }
     if (!used("density"))
@@ -109,7 +109,7 @@ void HostProducts::plan(brume_host_t &host, const std::vector<std::string> &uses
                     : layer_ == 1 ? "the layer optical_depth in place of the scene's density"
                                   : "the layer transmittance in place of the scene's density",
                     uint64_t(pixels * (4 + 8 + (layer_ ? 32 : 0))),
-                    uint64_t(pixels * (3 + 3 * scene.medium->term_count + (layer_ ? 20 : 0)))});
+                    uint64_t(pixels * (3 + 3 * scene.medium->term_count + (layer_ ? 20 : 0))), 0, 0});
     density_pass_ = make_pass(host, "density", "density.comp", fmt::format("#define LAYER {}\n", layer_), density_slots,
                               layer_ == 0   ? density_rows()
                               : layer_ == 1 ? layer_density_rows<1>

@@ -25,7 +25,7 @@ bool contains(const std::vector<std::string> &names, const std::string &name)
 
 brume_host_t::brume_host_t(std::shared_ptr<Context> context, Scene scene, const Format &format, Purpose purpose)
     : context_(std::move(context)), scene_(std::move(scene)), given_effects_(scene_.effects), format_(format),
-      structure_(scene_, format_), resources_(*context_->backend, purpose)
+      structure_(scene_, format_), resources_(*context_->backend, purpose), waking_(purpose == Purpose::waking)
 {
     context_->backend->invoke([&] {
         int32_t largest = context_->backend->largest_size();
@@ -118,6 +118,8 @@ void brume_host_t::plan_effects()
     for (auto &planned : effects_)
         if (planned.runs)
             running_.push_back(&planned);
+    if (waking_)
+        return;
     check_outputs();
     plan_host_products(scene);
     resources_.bind_passes(entries_);
@@ -185,10 +187,9 @@ std::string brume_host_t::wakes(const Scene &scene, const Format &format) const
 {
     if (running_.size() == effects_.size() || (drops_alike(scene, scene_) && drops_alike(format, format_)))
         return {};
-    Scene planned = scene;
-    planned.effects = scene_.effects;
-    planned.quality = {};
-    const brume_host_t rehearsal(context_, std::move(planned), format, Purpose::rehearsal);
+    Scene least = least_to_drop_alike(scene);
+    least.effects = scene_.effects;
+    const brume_host_t rehearsal(context_, std::move(least), format, Purpose::waking);
     for (size_t i = 0; i < std::min(effects_.size(), rehearsal.effects_.size()); ++i)
         if (rehearsal.effects_[i].runs && !effects_[i].runs)
             return effects_[i].effect->name + ": dropped when planned, it would run now";

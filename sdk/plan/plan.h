@@ -71,6 +71,7 @@ public:
     // The services of brume_plugin.h; the names are the same there.
     brume_status fail(brume_status status, const char *message);
     void add_entry(const brume_plugin_entry &entry);
+    double nanoseconds(const brume_plugin_entry &entry) const;
     void need_camera(uint32_t needs, const std::string &reason);
     brume_plugin_image create_image(const char *label, int32_t width, int32_t height, int32_t channels)
     {
@@ -146,5 +147,6 @@ private:
     const brume::PlannedEffect *current_ = nullptr;  // whose callback is running; null: the host's own passes
     std::string failure_;
     bool warned_ = false;
+    const bool waking_;
     int64_t clamped_values_ = brume::not_counted;
 };

@@ -223,7 +223,7 @@ void brume_host_t::plan_effect(PlannedEffect &planned, const brume_plugin_scene 
     if (entries_.size() == first)
         throw Error(BRUME_ERROR_PLUGIN,
                     planned.effect->name + ": plan added no entry; expected one that runs or says why nothing does");
-    if (planned.runs && planned.effect->offer)
+    if (planned.runs && planned.effect->offer && !waking_)
         take_offers(planned, request);
     current_ = nullptr;
 }

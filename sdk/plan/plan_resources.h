@@ -21,13 +21,14 @@ struct PlanEntry {
     double predicted_ms = 0;
 };
 
-// Rehearsals are planned for their entries and offers: they hold no images or passes and cannot be executed.
-enum class Purpose { execution, rehearsal };
+// Rehearsals are planned for their entries and offers: they hold no images or passes and cannot be executed. Waking: for
+// whether each effect runs alone.
+enum class Purpose { execution, rehearsal, waking };
 
 // What a plan holds of its backend: images, passes, and data that effects upload.
 class PlanResources {
 public:
-    PlanResources(Backend &backend, Purpose purpose) : backend_(backend), rehearsal_(purpose == Purpose::rehearsal) {}
+    PlanResources(Backend &backend, Purpose purpose) : backend_(backend), rehearsal_(purpose != Purpose::execution) {}
 
     // As the services of brume_plugin.h; owner: the effect that asks, null: the host.
     brume_plugin_image create_image(const char *label, int32_t width, int32_t height, int32_t channels);

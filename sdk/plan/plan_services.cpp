@@ -38,7 +38,12 @@ void brume_host_t::add_entry(const brume_plugin_entry &entry)
     if (!entry.name || !entry.reason)
         throw Error(BRUME_ERROR_ARGUMENT, "add_entry: name or reason is NULL");
     entries_.push_back({entry.runs != 0, current_ ? current_->effect->name : host_name, entry.name, entry.reason,
-                        entry.bytes, entry.operations, 0});
+                        entry.bytes, uint64_t(nanoseconds(entry)), 0});
+}
+
+double brume_host_t::nanoseconds(const brume_plugin_entry &entry) const
+{
+    return brume::nanoseconds(*context_->backend, {entry.operations, entry.alike, entry.turns});
 }
 
 void brume_host_t::need_camera(uint32_t needs, const std::string &reason)

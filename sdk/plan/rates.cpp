@@ -17,14 +17,16 @@ using Json = nlohmann::ordered_json;
 struct Nominal {
     double bytes_per_ms;
     double operations_per_ms;
+    double alike, turn;  // in operations
 };
 
-// Threads of a server CPU, Mesa's software GL on two of them, a mid-range GPU.
+// Threads of a server CPU, Mesa's software GL on two of them, a mid-range GPU. The CPU has texels, or a texel's turns, side
+// by side; turns are what software GL is slow at, and nobody has measured them on a GPU.
 Nominal nominal(const Backend &backend)
 {
     if (backend.kind() == BRUME_BACKEND_CPU)
-        return {4e6 * std::min(backend.threads(), 4u), 1e6 * backend.threads()};
-    return backend.device().find("llvmpipe") != std::string::npos ? Nominal{2e6, 1.5e6} : Nominal{3e8, 1e9};
+        return {4e6 * std::min(backend.threads(), 4u), 1e6 * backend.threads(), 0.25, 1.5};
+    return backend.device().find("llvmpipe") != std::string::npos ? Nominal{2e6, 1.5e6, 1, 20} : Nominal{3e8, 1e9, 1, 20};
 }
 
 Json identity(const Backend &backend)
@@ -36,6 +38,12 @@ Json identity(const Backend &backend)
 }
 
 }  // namespace
+
+double nanoseconds(const Backend &backend, const Work &work)
+{
+    const Nominal rates = nominal(backend);
+    return double(work.operations) + rates.alike * double(work.alike) + rates.turn * double(work.turns);
+}
 
 double Rates::milliseconds(const Backend &backend, const std::string &effect, const std::string &pass, uint64_t operations,
                            uint64_t bytes) const

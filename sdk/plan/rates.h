@@ -7,6 +7,14 @@ namespace brume {
 
 class Backend;
 
+// What a pass does a frame, by kind: see brume_plugin_entry.
+struct Work {
+    uint64_t operations = 0, alike = 0, turns = 0;
+};
+
+// Of one thread, at the backend's nominal rates.
+double nanoseconds(const Backend &backend, const Work &work);
+
 // What a pass takes a frame: a start, which small images do not hide, and what grows with its operations.
 struct Rate {
     double start_ms = 0;

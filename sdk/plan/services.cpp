@@ -1,5 +1,9 @@
 #include "plan/services.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
 #include "base/error.h"
 #include "plan/plan.h"
 
@@ -22,11 +26,20 @@ template <class Function> brume_status guarded(brume_host host, Function functio
     }
 }
 
-template <class Struct> void expect_struct(const Struct *given, const char *what)
+// A plugin of a later header says a larger size and is served too.
+template <class Struct> void expect_struct(const Struct *given, size_t least, const char *what)
 {
-    // There is one version of these structs so far; a plugin of a later header says a larger size and is served too.
-    if (!given || given->struct_size < sizeof(Struct))
+    if (!given || given->struct_size < least)
         throw Error(BRUME_ERROR_ARGUMENT, std::string(what) + ": NULL or struct_size too small");
+}
+
+// As this library knows it: what the plugin's header did not have yet is 0.
+brume_plugin_entry copied(const brume_plugin_entry *entry)
+{
+    expect_struct(entry, offsetof(brume_plugin_entry, alike), "add_entry");
+    brume_plugin_entry copy{};
+    std::memcpy(&copy, entry, std::min<size_t>(entry->struct_size, sizeof copy));
+    return copy;
 }
 
 }  // namespace
@@ -40,10 +53,7 @@ const brume_services &services()
             return host ? host->fail(status, message) : status;
         },
         [](brume_host host, const brume_plugin_entry *entry) {
-            return guarded(host, [&] {
-                expect_struct(entry, "add_entry");
-                host->add_entry(*entry);
-            });
+            return guarded(host, [&] { host->add_entry(copied(entry)); });
         },
         [](brume_host host, uint32_t needs, const char *reason) {
             return guarded(host, [&] { host->need_camera(needs, reason ? reason : ""); });
@@ -57,7 +67,7 @@ const brume_services &services()
         },
         [](brume_host host, const brume_pass_desc *desc, brume_pass *out) {
             return guarded(host, [&] {
-                expect_struct(desc, "create_pass");
+                expect_struct(desc, sizeof *desc, "create_pass");
                 if (!out)
                     throw Error(BRUME_ERROR_ARGUMENT, "create_pass: out is NULL");
                 *out = host->create_pass(*desc);
@@ -92,6 +102,11 @@ const brume_services &services()
         [](brume_host host, const char *product, const brume_plugin_image *images, uint32_t image_count, uint32_t count,
            uint64_t revision) {
             return guarded(host, [&] { host->publish(product, images, image_count, count, revision); });
+        },
+        [](brume_host host, const brume_plugin_entry *entry) {
+            double taken = 0;
+            guarded(host, [&] { taken = host->nanoseconds(copied(entry)); });
+            return taken;
         },
     };
     return table;

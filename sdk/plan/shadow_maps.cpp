@@ -168,7 +168,7 @@ void ShadowMaps::plan(brume_host_t &host, const brume_plugin_scene &scene, const
         reason += fmt::format("{}maps of {} lights by the picture's depth", copied ? "; " : "", made);
     const double texels = double(copied) * expected_texels, marched = double(made) * screen_side * screen_side;
     host.add_entry({sizeof(brume_plugin_entry), 1, "shadows", reason.c_str(), uint64_t(texels * 8 + marched * 4),
-                    uint64_t(texels * 2 + marched * 5000)});
+                    uint64_t(texels * 2 + marched * 5000), 0, 0});
     if (copied)
         copy_pass_ = make_pass(host, "shadow_maps.comp", map_slots, map_constants, sizeof(MapConstants), copy_rows, 64);
     if (made)

@@ -189,6 +189,30 @@ bool drops_alike(const SceneValues &a, const SceneValues &b)
            (!a.medium || but_gaussians(*a.medium) == but_gaussians(*b.medium));
 }
 
+Scene least_to_drop_alike(const Scene &scene)
+{
+    Scene least;
+    least.metres_per_unit = scene.metres_per_unit;
+    least.luminance = scene.luminance;
+    least.camera = scene.camera;
+    least.environment = scene.environment;
+    for (const Light &light : scene.lights)
+        if (std::none_of(least.lights.begin(), least.lights.end(),
+                         [&](const Light &taken) { return taken.shadow.kind == light.shadow.kind; }))
+            least.lights.push_back(light);
+    if (scene.medium) {
+        const Medium &m = *scene.medium;
+        least.medium = {m.scattering,       m.absorption, m.emission, m.g, m.visibility,
+                        m.droplet_diameter, m.density,    {},         {},  m.noise};
+        if (has_gaussians(scene))
+            least.medium->gaussians.emplace_back();
+        else if (!m.gaussians.empty() || !m.gaussian_sets.empty())
+            least.medium->gaussians.emplace_back().amplitude = 0;
+    }
+    least.effects_named = scene.effects_named;
+    return least;
+}
+
 Scene with_peak_medium(Scene scene)
 {
     if (!scene.medium)

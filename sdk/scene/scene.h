@@ -158,6 +158,8 @@ bool reads_gaussians_by_frame(const Scene &scene);
 // Whether effects that dropped what they have to do with one scene have no reason to do it with the other, of the same
 // structure: what they may go by (brume_effect.plan) is the same.
 bool drops_alike(const SceneValues &a, const SceneValues &b);
+// A scene of these values with which effects drop the same: with one of its Gaussians and one of each kind of its lights.
+Scene least_to_drop_alike(const Scene &scene);
 
 // The medium with the largest value that each of its keyed quantities takes: what is zero there is zero in every frame.
 Scene with_peak_medium(Scene scene);

@@ -44,7 +44,9 @@ EffectSettings read_effect(const JsonNode &effects, const JsonMember &member, co
         } catch (const Error &error) {
             node.fail_key(setting, error.what());
         }
-        settings.parameters[parameter->name] = read_parameter(node.member(setting), *effect, *parameter);
+        const double value = read_parameter(node.member(setting), *effect, *parameter);
+        if (!settings.parameters.emplace(parameter->name, value).second)
+            node.fail_key(setting, fmt::format("{} and {} are one parameter", parameter->name, parameter->alias));
     }
     return settings;
 }

@@ -223,10 +223,20 @@ Json effects_schema(const EffectRegistry &registry)
     for (const Effect &effect : registry.all()) {
         if (!effect.refusal.empty())
             continue;
-        Json parameters = Json::object();
-        for (const Parameter &parameter : effect.parameters)
+        Json parameters = Json::object(), rules = Json::array();
+        for (const Parameter &parameter : effect.parameters) {
             parameters[parameter.name] = parameter_schema(parameter);
-        effects[effect.name] = described(object_of(parameters), effect.help);
+            if (parameter.alias.empty())
+                continue;
+            Json &alias = parameters[parameter.alias] =
+                described(parameter_schema(parameter), "The same as " + parameter.name);
+            alias["deprecated"] = true;
+            rules.push_back({{"not", {{"required", {parameter.name, parameter.alias}}}}});
+        }
+        Json schema = object_of(parameters);
+        if (!rules.empty())
+            schema["allOf"] = rules;
+        effects[effect.name] = described(schema, effect.help);
     }
     return described(object_of(effects), "Effects and their parameters; none: those that the scene needs");
 }

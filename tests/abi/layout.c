@@ -45,7 +45,7 @@ FIELD(brume_effect_info, help, 16, 8);
 FIELD(brume_effect_info, file, 24, 8);
 FIELD(brume_effect_info, refusal, 32, 8);
 
-SIZE(brume_parameter_info, 64);
+SIZE(brume_parameter_info, 72);
 FIELD(brume_parameter_info, struct_size, 0, 4);
 FIELD(brume_parameter_info, type, 4, 4);
 FIELD(brume_parameter_info, minimum, 8, 8);
@@ -55,6 +55,7 @@ FIELD(brume_parameter_info, name, 32, 8);
 FIELD(brume_parameter_info, unit, 40, 8);
 FIELD(brume_parameter_info, help, 48, 8);
 FIELD(brume_parameter_info, choices, 56, 8);
+FIELD(brume_parameter_info, alias, 64, 8);
 
 SIZE(brume_layer_info, 32);
 FIELD(brume_layer_info, struct_size, 0, 4);

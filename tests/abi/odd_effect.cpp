@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <thread>
 
@@ -11,7 +12,7 @@
 namespace {
 
 constexpr std::string_view test_case = TEST_CASE;
-std::atomic<int> inside = 0;
+std::atomic<int> inside = 0, plans = 0;
 
 struct Alone {
     bool alone = ++inside == 1;
@@ -27,13 +28,26 @@ brume_status settle(const brume_services *services, brume_host host, const brume
     return now.alone ? BRUME_OK : services->fail(host, BRUME_ERROR_PLUGIN, "called twice at once");
 }
 
-brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *, void **state)
+// Says how many plans there were; runs in a medium that absorbs much.
+brume_status plan_sleeper(const brume_services *services, brume_host host, const brume_plugin_scene &scene)
+{
+    const std::string reason = std::to_string(++plans);
+    if (scene.gaussian_count > 100)
+        return services->fail(host, BRUME_ERROR_PLUGIN, "too many Gaussians to look at each frame");
+    const brume_plugin_entry entry{
+        sizeof(brume_plugin_entry), scene.medium->absorption[0] > 0.5f, "pass", reason.c_str(), 0, 0, 0, 0};
+    return services->add_entry(host, &entry);
+}
+
+brume_status plan(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state)
 {
     Alone now;
+    if (test_case == "sleeper")
+        return plan_sleeper(services, host, *request->scene);
     *state = &inside;
     if (test_case == "throws_destroying_and_planning")
         throw std::runtime_error("thrown in plan");
-    const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0};
+    const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0, 0, 0};
     if (!now.alone)
         return services->fail(host, BRUME_ERROR_PLUGIN, "called twice at once");
     return services->add_entry(host, &entry);
@@ -87,6 +101,9 @@ const brume_effect effect{
     .offer = nullptr,
     .settle = settle,
     .uses_with = uses_with,
+    .scenes = nullptr,
+    .scene_count = 0,
+    .reserved_too = 0,
 };
 
 }  // namespace

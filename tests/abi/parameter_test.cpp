@@ -1,4 +1,5 @@
 // Introspection of effects and their parameters, and setting them.
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -158,12 +159,36 @@ TEST_F(Parameters, UnknownNamesNameTheNearest)
     };
     brume_parameter_info info = BRUME_PARAMETER_INFO_INIT;
     not_found(brume_scene_set_text(scene.get(), "multiscater", nullptr, nullptr), "multiscatter");
-    not_found(brume_scene_set_text(scene.get(), "multiscatter", "kernal", "paper"), "kernel");
+    not_found(brume_scene_set_text(scene.get(), "multiscatter", "methd", "paper"), "method");
     not_found(brume_scene_set_number(scene.get(), "multiscatter", "level", 1), "levels");
     not_found(brume_scene_set_number(scene.get(), "zzz", "levels", 1), "multiscatter");
     not_found(brume_parameter_get_info(context.get(), "multiscatterr", 0, &info), "multiscatter");
     expect_status(context.get(), brume_scene_set_text(scene.get(), "multiscatter", "kernel", "papre"), BRUME_ERROR_ARGUMENT,
                   "paper");
+}
+
+// Names of before go on naming the same; tables have them beside the new ones.
+TEST_F(Parameters, AliasesNameTheSame)
+{
+    const auto result_of = [&](const char *parameter, const char *value) {
+        Scene fog = make_scene(context, foggy);
+        EXPECT_EQ(brume_scene_set_text(fog.get(), "multiscatter", parameter, value), BRUME_OK) << message(context.get());
+        Plan plan = make_plan(context, fog, ray_format(40, 30));
+        Picture color(40, 30), depth(40, 30, {.channels = 1}), output(40, 30);
+        paint(color);
+        paint_depth(depth);
+        EXPECT_EQ(execute(plan.get(), color, depth, output), BRUME_OK) << message(context.get());
+        return output.memory();
+    };
+    EXPECT_EQ(result_of("kernel", "paper"), result_of("method", "paper"));
+    EXPECT_NE(result_of("kernel", "paper"), result_of("lobes", "second"));
+    EXPECT_EQ(brume_scene_set_number(scene.get(), "airlight", "tier", 0), BRUME_OK) << message(context.get());
+    std::map<std::string, std::string> aliases;
+    for_each([&](const brume_effect_info &effect, const brume_parameter_info &parameter) {
+        if (*parameter.alias)
+            aliases[effect.name + std::string(".") + parameter.name] = parameter.alias;
+    });
+    EXPECT_EQ(aliases, (std::map<std::string, std::string>{{"multiscatter.method", "kernel"}, {"airlight.method", "tier"}}));
 }
 
 // Text and number are two ways to the same value: plans made of either give the same bits, and other values other bits.

@@ -64,7 +64,10 @@ FIELD(brume_plugin_request, scene, 40);
 FIELD(brume_plugin_request, animated, 48);
 FIELD(brume_plugin_request, transmittance, 56);
 FIELD(brume_plugin_request, detail, 64);
-SIZE(brume_plugin_entry, 40);
+SIZE(brume_plugin_entry, 56);
+FIELD(brume_plugin_entry, operations, 32);
+FIELD(brume_plugin_entry, alike, 40);
+FIELD(brume_plugin_entry, turns, 48);
 SIZE(brume_slot, 16);
 FIELD(brume_slot, access, 8);
 SIZE(brume_constant, 24);
@@ -95,14 +98,15 @@ FIELD(brume_plugin_frame, color, 24);
 FIELD(brume_plugin_frame, output, 40);
 FIELD(brume_plugin_frame, layers, 48);
 FIELD(brume_plugin_frame, products, 56);
-SIZE(brume_services, 80);
+SIZE(brume_services, 88);
 FIELD(brume_services, fail, 8);
 FIELD(brume_services, create_pass, 40);
 FIELD(brume_services, made, 48);
 FIELD(brume_services, run, 56);
 FIELD(brume_services, upload, 64);
 FIELD(brume_services, publish, 72);
-SIZE(brume_effect, 144);
+FIELD(brume_services, nanoseconds, 80);
+SIZE(brume_effect, 160);
 FIELD(brume_effect, name, 8);
 FIELD(brume_effect, order, 24);
 FIELD(brume_effect, layer_count, 40);
@@ -115,6 +119,8 @@ FIELD(brume_effect, makes_with, 112);
 FIELD(brume_effect, offer, 120);
 FIELD(brume_effect, settle, 128);
 FIELD(brume_effect, uses_with, 136);
+FIELD(brume_effect, scenes, 144);
+FIELD(brume_effect, scene_count, 152);
 
 #endif
 

@@ -215,6 +215,67 @@ TEST(ThreadSafety, UnsafePluginsAreNeverCalledTwiceAtOnce)
         thread.join();
 }
 
+// Where a plan has dropped an effect it is asked again for each other medium, but for what Gaussians do, and of those it
+// then sees one.
+TEST(Sleepers, AreAskedAgainForAnotherMediumOnly)
+{
+    Context context = context_with(BRUME_ODD_EFFECT_DIR);
+    const auto scene = [&](double absorption, int gaussians) {
+        std::string text =
+            R"({"brume": 1, "camera": {"vertical_fov": 50, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+            "effects": {"sleeper": {}}, "medium": {"absorption": )" +
+            std::to_string(absorption) + R"(, "density": [)";
+        for (int i = 0; i < gaussians; ++i)
+            text += (i ? "," : "") + std::string(R"({"type": "gaussian", "scale": 1, "amplitude": 1, "center": [0, 0, -)") +
+                    std::to_string(2 + i) + "]}";
+        return make_scene(context, text + "]}}");
+    };
+    const auto plans = [&] {
+        Scene same = scene(0.1, 1);
+        Plan plan = make_plan(context, same, ray_format(16, 12));
+        brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+        EXPECT_EQ(brume_plan_get_entry(plan.get(), 0, &entry), BRUME_OK);
+        return std::stoi(entry.reason);
+    };
+    Scene first = scene(0.1, 1);
+    Plan plan = make_plan(context, first, ray_format(16, 12));
+    const auto update = [&](double absorption, int gaussians) {
+        Scene next = scene(absorption, gaussians);
+        return brume_plan_update(plan.get(), next.get(), nullptr);
+    };
+    const int before = plans();
+    for (int i = 0; i < 5; ++i)
+        EXPECT_EQ(update(0.1, 100 + 20 * i), BRUME_OK) << message(context.get());
+    EXPECT_EQ(plans(), before + 1);
+    for (int i = 0; i < 5; ++i)
+        EXPECT_EQ(update(0.2 + 0.01 * i, 200), BRUME_OK) << message(context.get());
+    EXPECT_EQ(plans(), before + 2 + 5);
+    expect_status(context.get(), update(0.6, 200), BRUME_ERROR_FORMAT, "sleeper: dropped when planned, it would run now");
+}
+
+// A calibration measures what strangers' effects do, too, and goes on where one cannot be planned.
+TEST(Calibration, MeasuresStrangers)
+{
+    Context context = context_with(BRUME_TEST_PLUGIN_DIR);
+    ASSERT_EQ(brume_context_calibrate(context.get()), BRUME_OK) << message(context.get());
+    std::string text(brume_context_calibration(context.get(), nullptr, 0), '\0');
+    brume_context_calibration(context.get(), text.data(), text.size());
+    for (const char *pass :
+         {"well_behaved/copy", "surface/compose", "surface/transfer", "airlight/gather", "multiscatter/compose"})
+        EXPECT_NE(text.find(std::string("\"") + pass + "\""), std::string::npos) << pass << " in " << text;
+}
+
+// What lies behind an older header's entry is not counted.
+TEST_F(Strangers, OfAnOlderHeaderCountWhatTheyKnow)
+{
+    Scene scene = make_scene(context, scene_with("well_behaved"));
+    Plan plan = make_plan(context, scene, ray_format(16, 12));
+    brume_plan_entry entry = BRUME_PLAN_ENTRY_INIT;
+    ASSERT_EQ(brume_plan_get_entry(plan.get(), 0, &entry), BRUME_OK);
+    EXPECT_STREQ(entry.name, "copy");
+    EXPECT_EQ(entry.operations, 7u);
+}
+
 // Effects run one after the other by their order, each on what the one before left.
 TEST_F(Strangers, RunInOrderAfterOurs)
 {

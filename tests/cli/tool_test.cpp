@@ -261,7 +261,12 @@ TEST_F(Tool, PlanEffectsAndSchemaExplainThemselves)
     EXPECT_FALSE(json::parse(plan.out)["entries"].empty());
     EXPECT_EQ(brume({"plan", fog_.string(), in_.string(), "--vfov", "50", "--backend", "cpu"}).status, 0);
     EXPECT_NE(brume({"effects"}).out.find("multiscatter"), std::string::npos);
-    EXPECT_NE(brume({"effects", "multiscatter"}).out.find("kernel"), std::string::npos);
+    EXPECT_NE(brume({"effects", "multiscatter"}).out.find("(also kernel)"), std::string::npos);
+    const auto planned = [&](const std::string &set) {
+        return brume({"plan", fog_.string(), in_.string(), "--vfov", "50", "--backend", "cpu", "--json", "--set", set}).out;
+    };
+    EXPECT_EQ(planned("multiscatter.kernel=paper"), planned("multiscatter.method=paper"));
+    EXPECT_NE(planned("multiscatter.kernel=paper"), planned("multiscatter.method=calibrated"));
     EXPECT_EQ(brume({"effects", "nope"}).status, 2);
     EXPECT_TRUE(json::parse(brume({"schema"}).out).is_object());
     EXPECT_EQ(brume({"--help"}).status, 0);

@@ -1,4 +1,5 @@
-// Tier `nodes` where many Gaussians lie along a ray, in cells, against the same ray in parts, which is what max_error .0005 takes.
+// Tier `nodes` where many Gaussians lie along a ray, in cells, against the same ray in parts, which is what max_error .0005
+// takes.
 #include <gtest/gtest.h>
 
 #include "clouds.h"
@@ -14,8 +15,9 @@ std::vector<NamedScene> dense_clouds()
             g["amplitude"] = factor * g["amplitude"].get<double>();
         return density;
     };
-    const Json facing{{"type", "spot"}, {"position", {0.3, 0.2, -13}}, {"direction", {0, 0, 1}},
-                      {"angle", 40},    {"penumbra", 0.3},             {"intensity", 60}};
+    const Json facing{{"type", "spot"},         {"position", {0.3, 0.2, -13}},
+                      {"direction", {0, 0, 1}}, {"angle", 40},
+                      {"penumbra", 0.3},        {"intensity", 60}};
     return {{"absorption of some colours",
              scene_of(cloud(50, 3), lamps(3), {{"scattering", {0.8, 0.6, 0.4}}, {"absorption", {0, 1, 4}}}),
              {}},

@@ -210,10 +210,10 @@ TEST(Reference, IsRefusedOnGlWithTheParameter)
     if (!gl())
         throw std::runtime_error("no GL backend");
     const std::pair<const char *, const char *> asked[] = {
-        {"\"multiscatter\":{\"kernel\":\"reference\"}", "multiscatter: kernel: reference on OpenGL; expected calibrated"},
+        {"\"multiscatter\":{\"kernel\":\"reference\"}", "multiscatter: method: reference on OpenGL; expected calibrated"},
         {"\"multiscatter\":{\"kernel\":\"paper_reference\"}",
-         "multiscatter: kernel: paper_reference on OpenGL; expected paper"},
-        {"\"airlight\":{\"tier\":\"reference\"}", "airlight: tier: reference on OpenGL; expected nodes"}};
+         "multiscatter: method: paper_reference on OpenGL; expected paper"},
+        {"\"airlight\":{\"tier\":\"reference\"}", "airlight: method: reference on OpenGL; expected nodes"}};
     for (const auto &[effect, message] : asked) {
         std::string text = paper_scene("\"scattering\":0.03", "");
         text.replace(text.find("\"effects\""), std::string::npos,

@@ -65,7 +65,7 @@ TEST(Quality, ParametersThatAreSetStay)
     EXPECT_EQ(quality_of("\"resolution\":\"full\"").find("resolution"), std::string::npos);
     EXPECT_NE(quality_of("\"kernel\":\"paper\"").find("multiscatter as its parameters are"), std::string::npos);
     const Plan plan(cpu(), scene("\"scattering\":0.02", "\"kernel\":\"paper\""), 64, 48);
-    EXPECT_LT(info_of(plan).predicted_error, 0) << "of kernel paper nothing is predicted";
+    EXPECT_LT(info_of(plan).predicted_error, 0) << "of method paper nothing is predicted";
     EXPECT_STREQ(info_of(plan).quality, "");
 }
 

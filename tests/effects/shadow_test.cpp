@@ -231,7 +231,7 @@ TEST(Shadows, SayWhatIsMissing)
     expect_refusal(scene_with(Json::array({lamp(false), lamp(true)})), {{"shadow", fence()}}, BRUME_ERROR_ARGUMENT,
                    "light 0 is given");
     expect_refusal(scene_with(Json::array({lamp(true)}), {{"tier", "fogshop"}}), {{"shadow", fence()}},
-                   BRUME_ERROR_UNSUPPORTED, "tier: fogshop");
+                   BRUME_ERROR_UNSUPPORTED, "method: fogshop");
 }
 
 // A march of 400 steps through the same map has relMSE .0033.

@@ -34,8 +34,9 @@ def test_effects_tell_what_they_do(context):
     assert all(effect.help and effect.refusal is None for effect in effects.values())
     parameters = context.parameters("multiscatter")
     assert parameters == effects["multiscatter"].parameters
-    kernel, levels, masking = parameters["kernel"], parameters["levels"], parameters["masking"]
+    kernel, levels, masking = parameters["method"], parameters["levels"], parameters["masking"]
     assert kernel.type == "choice" and kernel.default in kernel.choices and "paper" in kernel.choices and kernel.minimum is None
+    assert kernel.alias == "kernel" and levels.alias == ""
     assert (levels.type, levels.default, levels.minimum, levels.maximum) == ("integer", 0, 0, 16)
     assert (masking.type, masking.default) == ("boolean", True)
     assert parameters["separation_density"].unit == "m"
@@ -70,14 +71,16 @@ def test_refused_plugins_are_listed(tmp_path):
 def test_parameters_are_set(context, scene, color, depth):
     with brume.Scene(scene, context=context) as made:
         plain = brume.fog(color, depth, made)
-        made.set("multiscatter", "kernel", "paper")
+        made.set("multiscatter", "kernel", "paper")  # by its alias
         paper = brume.fog(color, depth, made)
+        made.set("multiscatter", "method", "paper")
+        assert np.array_equal(paper, brume.fog(color, depth, made))
         made.set("multiscatter", "masking", False)
         made.set("multiscatter", "levels", 3)
         made.set("multiscatter", "level_scale", np.float32(1))
         assert not np.array_equal(plain, paper) and not np.array_equal(paper, brume.fog(color, depth, made))
         for arguments, error, message in ((("multiscater",), brume.NotFoundError, 'did you mean "multiscatter"'),
-                                          (("multiscatter", "kernal", "paper"), brume.NotFoundError, 'did you mean "kernel"'),
+                                          (("multiscatter", "methd", "paper"), brume.NotFoundError, 'did you mean "method"'),
                                           (("multiscatter", "kernel", "x"), brume.ArgumentError, "paper"),
                                           (("multiscatter", "levels", 99), brume.ArgumentError, "99.*0 to 16"),
                                           (("multiscatter", "levels", None), brume.ArgumentError, "multiscatter.levels: None; expected"),

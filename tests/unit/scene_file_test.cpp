@@ -62,7 +62,7 @@ TEST(SceneFile, ReadsEverything)
                      "penumbra": 0.25},
                     {"type": "directional", "direction": [0,-1,0], "intensity": {"keys": [[1,3],[2,5]]}, "distance": 7} ],
         "environment": { "sh": [[1,2,3], [4,5,6], [7,8,9], [-1,-2,-3]] },
-        "effects": { "well_behaved": {"strength": 2, "levels": 3, "masking": false, "kernel": "paper"} } })");
+        "effects": { "well_behaved": {"strength": 2, "levels": 3, "masking": false, "filter": "paper"} } })");
     EXPECT_EQ(scene.metres_per_unit, 0.01);
     EXPECT_NEAR(scene.camera.vertical_fov->at(0), std::numbers::pi / 2, 1e-15);
     EXPECT_FALSE(scene.camera.horizontal_fov);
@@ -263,6 +263,10 @@ TEST(SceneFile, SaysWhereAndWhatIsWrong)
         {R"("effects": {"well_behaved": {"masking": 1}})", "2:41: effects.well_behaved.masking: 1; expected true or false"},
         {R"("effects": {"well_behaved": {"kernel": "papr"}})",
          R"(2:40: effects.well_behaved.kernel: "papr"; expected one of paper, reference)"},
+        {R"("effects": {"well_behaved": {"kernel": "paper", "filter": "reference"}})",
+         "2:49: kernel and filter are one parameter"},
+        {R"("effects": {"well_behaved": {"filter": "papr"}})",
+         R"(2:40: effects.well_behaved.filter: "papr"; expected one of paper, reference)"},
         {R"("effects": {"well_behaved": {"kernel": 0}})",
          "2:40: effects.well_behaved.kernel: 0; expected one of paper, reference"},
         {R"("effects": {"well_behaved": {"strength": {"keys": [[1, 1]]}}})",

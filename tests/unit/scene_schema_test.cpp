@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +28,9 @@ TEST(SceneSchema, ListsEveryParameterOfEveryEffect)
             continue;
         ++taken;
         ASSERT_TRUE(properties.contains(effect.name)) << effect.name;
-        EXPECT_EQ(properties[effect.name]["properties"].size(), effect.parameters.size());
+        const auto aliases = std::count_if(effect.parameters.begin(), effect.parameters.end(),
+                                           [](const Parameter &parameter) { return !parameter.alias.empty(); });
+        EXPECT_EQ(properties[effect.name]["properties"].size(), effect.parameters.size() + size_t(aliases));
         for (const Parameter &parameter : effect.parameters)
             EXPECT_TRUE(properties[effect.name]["properties"].contains(parameter.name)) << parameter.name;
     }
@@ -38,6 +42,9 @@ TEST(SceneSchema, ListsEveryParameterOfEveryEffect)
     EXPECT_EQ(well_behaved["levels"], Json::parse(R"({"type": "integer", "minimum": 1, "maximum": 12, "default": 4,
                                                       "description": "How many"})"));
     EXPECT_EQ(well_behaved["masking"], Json::parse(R"({"type": "boolean", "default": true, "description": "Whether"})"));
+    Json alias = well_behaved["filter"];
+    EXPECT_EQ(alias["deprecated"], true);
+    EXPECT_EQ(alias["enum"], well_behaved["kernel"]["enum"]);
     EXPECT_EQ(well_behaved["kernel"], Json::parse(R"({"enum": ["paper", "reference"], "default": "reference",
                                                       "description": "Which"})"));
 }

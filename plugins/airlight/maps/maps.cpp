@@ -181,7 +181,10 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
     const Parameters &p = state.parameters;
     const maps::Fineness fineness = maps::fineness_of(p.max_error);
     MapsOffer offer{maps::sizes_of(scene, state.width, state.height, least_cell(p), fineness, uint64_t(p.memory * 1e6)),
-                    false, 0, 0, 0};
+                    false,
+                    {},
+                    {},
+                    {}};
     offer.suits = p.max_error >= least_error && offer.sizes.fine &&
                   (scene.gaussians ? scene.gaussian_count >= fewest_gaussians : scene.gaussian_count > 0);
     // Orders beyond the first go pixel by pixel.
@@ -189,14 +192,15 @@ MapsOffer offer_maps(const brume_plugin_request &request, const State &state)
                summed = sums_lights(scene, state, orders, offer.sizes.cell);
     const double lights = scene.light_count, looked_up = (summed ? 1 : lights) * (orders ? 20 : 1),
                  pixels = double(state.width) * state.height / (p.reduction * p.reduction), slices = offer.sizes.slices,
-                 side = fineness.side, of_list = 40 * std::sqrt(1 + 0.1 * scene.gaussian_count),
+                 side = fineness.side, listed = std::sqrt(1 + 0.1 * scene.gaussian_count),
                  points = double(corners(state.width, offer.sizes.cell)) * corners(state.height, offer.sizes.cell);
-    const double of_backend = request.backend == BRUME_BACKEND_GL ? 6 : 1;  // software GL, as the others are counted
-    // Where neighbours have cells of their own, the CPU takes them one by one.
-    const double of_pixel = request.backend == BRUME_BACKEND_CPU && offer.sizes.cell < 2 * p.reduction ? 7 : 1;
-    offer.of_pixels = of_backend * of_pixel * pixels * slices * (8 + 6 * looked_up);
-    offer.of_grid = of_backend * points * (slices * (4 + 6 * lights) + of_list);
-    offer.of_maps = of_backend * lights * side * side * of_list;
+    constexpr Work of_list{0, 124, 6}, of_point{0, 14, 0.4}, of_light{0, 18, 1};
+    // Where neighbours have cells of their own they share nothing.
+    offer.of_pixels =
+        pixels * slices *
+        (offer.sizes.cell < 2 * p.reduction ? Work{56 + 42 * looked_up} : Work{0, 26, 1} + looked_up * of_light);
+    offer.of_grid = points * (slices * (of_point + lights * of_light) + listed * of_list);
+    offer.of_maps = lights * side * side * listed * of_list;
     return offer;
 }
 
@@ -239,8 +243,8 @@ brume_status plan_maps(const brume_services &services, brume_host host, const br
         if (brume_status e = image("airlight error so far", reduced, 4, m.error))
             return e;
 
-    auto entry = [&](const char *name, const std::string &reason, double bytes, double operations) {
-        brume_plugin_entry e{sizeof e, 1u, name, reason.c_str(), uint64_t(bytes), uint64_t(operations)};
+    auto entry = [&](const char *name, const std::string &reason, double bytes, const Work &work) {
+        const brume_plugin_entry e = running(name, reason, bytes, work);
         return services.add_entry(host, &e);
     };
     const double lights = scene.light_count, points = double(grid_size(s).x) * grid_size(s).y;

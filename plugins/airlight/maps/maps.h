@@ -5,6 +5,7 @@
 #include "maps/frames.h"
 #include "maps/sizes.h"
 #include "scene_maths.hpp"
+#include "work.h"
 
 namespace airlight {
 
@@ -42,10 +43,10 @@ constexpr const char *maps_gather = "lookup";
 struct MapsOffer {
     maps::Sizes sizes;
     bool suits;  // may be taken unasked
-    // Of a frame in which all moved, as brume_plugin_entry counts them.
-    double of_pixels, of_grid, of_maps;
+    // Of a frame in which all moved.
+    Work of_pixels, of_grid, of_maps;
 
-    double operations() const { return of_pixels + of_grid + of_maps; }
+    Work work() const { return of_pixels + of_grid + of_maps; }
 };
 MapsOffer offer_maps(const brume_plugin_request &request, const State &state);
 

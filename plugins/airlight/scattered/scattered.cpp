@@ -104,8 +104,7 @@ brume_status plan_scattered(const brume_services &services, brume_host host, con
         std::to_string(s.columns) + " x " + std::to_string(s.rows) + " rays of " + std::to_string(s.slices + 1) +
         " points, " + std::to_string(int(std::ceil(bytes / 1e5)) / 10) + "." +
         std::to_string(int(std::ceil(bytes / 1e5)) % 10) + " MB, have what arrives scattered more than once";
-    brume_plugin_entry entry{
-        sizeof entry, 1u, "scattered", reason.c_str(), uint64_t(bytes), uint64_t(points * scene.light_count * 1000)};
+    brume_plugin_entry entry = running("scattered", reason, bytes, {points * scene.light_count * 1000});
     if (brume_status e = services.add_entry(host, &entry))
         return e;
     entry.name = "rescattered";

@@ -127,15 +127,12 @@ brume_status plan_calibrated(const brume_services &services, brume_host host, co
                            image("surroundings", stack_w, stack_h, 4, state.ambient_stack)})
         if (s)
             return s;
-    // Operations: about what a pass costs in nanoseconds of one thread of a server CPU, a texel by itself. Side by side they
-    // take a quarter.
-    const double alone = request.backend == BRUME_BACKEND_CPU ? 0.25 : 1;
     const double pixels = double(state.width) * state.height, texels = double(base.x) * base.y,
                  texel = 16.0 + 4.0 * channels, colours = channels == 1 ? 1 : 1.3,
                  collecting = colours * 45.0 * (state.top / state.parameters.step),
                  square = 16.0 * state.reduction * state.reduction;
-    auto entry = [&](const char *name, const std::string &reason, double bytes, double operations) {
-        brume_plugin_entry e{sizeof e, 1, name, reason.c_str(), uint64_t(bytes), uint64_t(alone * operations)};
+    auto entry = [&](const char *name, const std::string &reason, double bytes, double alike) {
+        brume_plugin_entry e{sizeof e, 1, name, reason.c_str(), uint64_t(bytes), 0, uint64_t(alike), 0};
         return services.add_entry(host, &e);
     };
     const std::string levels = "levels 1 to " + std::to_string(state.top),
@@ -149,13 +146,13 @@ brume_status plan_calibrated(const brume_services &services, brume_host host, co
         if (s)
             return s;
     if (channels == 1) {
-        const brume_plugin_entry grey{sizeof grey, 0, "coverage", "grey medium: one channel serves all three", 0, 0};
+        const brume_plugin_entry grey{sizeof grey, 0, "coverage", "grey medium: one channel serves all three", 0, 0, 0, 0};
         if (brume_status s = services.add_entry(host, &grey))
             return s;
     }
     if (state.surrounded) {
         const brume_plugin_entry mean{
-            sizeof mean, 0, "surroundings", "the scene's environment is what surrounds the picture", 0, 0};
+            sizeof mean, 0, "surroundings", "the scene's environment is what surrounds the picture", 0, 0, 0, 0};
         if (brume_status s = services.add_entry(host, &mean))
             return s;
     }

@@ -13,7 +13,7 @@ void add_multiscatter(std::vector<Setting> &all)
     const std::string effect = "multiscatter";
     for (const std::string lobes : {"second", "every", "third"})
         for (const std::string resolution : {"full", "half", "quarter"}) {
-            Setting setting{effect, "calibrated", Kind::kSetting, {{"kernel", "calibrated"}}};
+            Setting setting{effect, "calibrated", Kind::kSetting, {{"method", "calibrated"}}};
             if (lobes != "second") {
                 setting.name += ", " + lobes + " level";
                 setting.parameters.emplace_back("lobes", lobes);
@@ -29,14 +29,14 @@ void add_multiscatter(std::vector<Setting> &all)
             all.push_back({effect,
                            "paper " + size + " " + fetch,
                            Kind::kPublished,
-                           {{"kernel", "paper"}, {"kernel_size", size}, {"fetch", fetch}}});
+                           {{"method", "paper"}, {"kernel_size", size}, {"fetch", fetch}}});
     // The paper's default is 4x4 linear_bicubic.
-    all.push_back({effect, "paper, no masking", Kind::kPublished, {{"kernel", "paper"}, {"masking", "false"}}});
-    all.push_back({effect, "paper, separation", Kind::kPublished, {{"kernel", "paper"}, {"separation", "true"}}});
+    all.push_back({effect, "paper, no masking", Kind::kPublished, {{"method", "paper"}, {"masking", "false"}}});
+    all.push_back({effect, "paper, separation", Kind::kPublished, {{"method", "paper"}, {"separation", "true"}}});
     all.push_back({effect,
                    "paper, separation, no masking",
                    Kind::kPublished,
-                   {{"kernel", "paper"}, {"separation", "true"}, {"masking", "false"}}});
+                   {{"method", "paper"}, {"separation", "true"}, {"masking", "false"}}});
 }
 
 void add_airlight(std::vector<Setting> &all)
@@ -50,11 +50,11 @@ void add_airlight(std::vector<Setting> &all)
                 all.push_back({effect,
                                "nodes " + error + ", " + resolution,
                                Kind::kSetting,
-                               {{"tier", "nodes"}, {"max_error", error}, {"resolution", resolution}}});
-    for (const std::string tier : {"sun", "fogshop"})
+                               {{"method", "nodes"}, {"max_error", error}, {"resolution", resolution}}});
+    for (const std::string method : {"sun", "fogshop"})
         for (const std::string resolution : {"full", "quarter"})
             all.push_back(
-                {effect, tier + ", " + resolution, Kind::kPublished, {{"tier", tier}, {"resolution", resolution}}});
+                {effect, method + ", " + resolution, Kind::kPublished, {{"method", method}, {"resolution", resolution}}});
 }
 
 template <class Visit> void for_choices(const Context &context, const std::string &effect, const Visit &visit)

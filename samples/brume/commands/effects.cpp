@@ -79,7 +79,8 @@ ordered_json in_json(const std::vector<brume_parameter_info> &parameters)
                         {"type", type_text(p)},
                         {"default", default_text(p)},
                         {"range", range_text(p)},
-                        {"help", p.help}});
+                        {"help", p.help},
+                        {"alias", p.alias}});
     return list;
 }
 
@@ -107,8 +108,8 @@ void print_effect(const Context &context, const brume_effect_info &effect)
 {
     fmt::print("{}  {}\n", effect.name, effect.help);
     for (const brume_parameter_info &p : context.parameters(effect.name))
-        fmt::print("  {:<20} {:<8} default {:<10} {:<24} {}\n", p.name, type_text(p), default_text(p), range_text(p),
-                   p.help);
+        fmt::print("  {:<20} {:<8} default {:<10} {:<24} {}{}\n", p.name, type_text(p), default_text(p), range_text(p),
+                   p.help, *p.alias ? fmt::format(" (also {})", p.alias) : "");
     print_layers(context.layers(effect.name));
 }
 

@@ -196,8 +196,9 @@ typedef struct brume_parameter_info {
   const char *unit;      /* "" where there is none */
   const char *help;      /* one line */
   const char *choices;   /* "paper|reference"; "" unless type is CHOICE */
+  const char *alias;     /* another name by which it is taken, for scenes and programs that know it by that; "": none */
 } brume_parameter_info;
-#define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL}
+#define BRUME_PARAMETER_INFO_INIT {(uint32_t)sizeof(brume_parameter_info), 0u, 0.0, 0.0, 0.0, NULL, NULL, NULL, NULL, NULL}
 BRUME_API void brume_parameter_info_init(brume_parameter_info *info, size_t size);
 BRUME_API brume_status brume_parameter_get_info(brume_context context, const char *effect, uint32_t index,
                                                 brume_parameter_info *info);
@@ -566,8 +567,8 @@ BRUME_API void brume_plan_destroy(brume_plan plan);
    Cost: a copy of the scene's values, by their number, into memory that the plan keeps: once warm, moving lights and cameras by
    brume_scene_set_lights, _set_camera, this and the frame allocate nothing. Gaussians are not copied, but brume_scene_set_medium
    makes them anew. Where the plan dropped an effect, and the medium but for its Gaussians, metres_per_unit, the luminance weights or
-   the format's distances differ from the last, the effects plan once more to see that it is dropped still: about what
-   brume_plan_create costs without its images. docs/accuracy.md has figures. */
+   the format's distances differ from the last, the effects plan once more to see that it is dropped still, without going
+   through Gaussians and lights. docs/accuracy.md has figures. */
 BRUME_API brume_status brume_plan_update(brume_plan plan, brume_scene scene, const brume_format *format);
 
 typedef struct brume_plan_info {
@@ -597,7 +598,7 @@ typedef struct brume_plan_entry {
   const char *name;
   const char *reason;   /* why it runs, or why not */
   uint64_t bytes;       /* the least it must read and write per frame */
-  uint64_t operations;  /* arithmetic per frame, about */
+  uint64_t operations;  /* per frame, about: what takes one thread of this backend a nanosecond at nominal rates */
   double predicted_ms;
   double measured_ms;   /* of the last execute; < 0 before one. On GL: GPU time; asking waits for that frame to end. */
 } brume_plan_entry;

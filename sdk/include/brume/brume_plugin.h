@@ -193,7 +193,7 @@ typedef struct brume_plugin_product {
 
 typedef struct brume_plugin_request {
   uint32_t struct_size;
-  uint32_t backend;                /* BRUME_BACKEND_CPU or _GL: for costs; passes run on either */
+  uint32_t backend;                /* BRUME_BACKEND_CPU or _GL; passes run on either */
   int32_t width;
   int32_t height;
   uint32_t parameter_count;
@@ -214,7 +214,12 @@ typedef struct brume_plugin_entry {
   const char *name;    /* copied */
   const char *reason;  /* copied */
   uint64_t bytes;      /* the least to be read and written per frame */
-  uint64_t operations; /* what it costs: about as many nanoseconds of one thread of a server CPU */
+
+  /* What it does per frame, counted by kind; what a backend takes for one of a kind is the host's to know. */
+  uint64_t operations; /* of texels by themselves: about as many nanoseconds of one thread of a server CPU */
+  uint64_t alike;      /* such operations that neighbouring texels do alike: where there are lanes they are done side by side */
+  uint64_t turns;      /* turns of loops within a texel (a quadrature's nodes, a ray's steps), each with a few exponentials or a
+                          fetch */
 } brume_plugin_entry;
 
 /* ---- passes ------------------------------------------------------------------------------------------------------ */
@@ -339,6 +344,10 @@ typedef struct brume_services {
      effect's own. `revision` tells contents apart. */
   brume_status (*publish)(brume_host host, const char *product, const brume_plugin_image *images, uint32_t image_count,
                           uint32_t count, uint64_t revision);
+
+  /* In plan() or offer(): what the entry's work takes on this backend, in nanoseconds of one thread at nominal rates: for an effect that
+     chooses between ways. A calibration does not change it, so that pictures do not depend on one. */
+  double (*nanoseconds)(brume_host host, const brume_plugin_entry *entry);
 } brume_services;
 
 /* ---- the effect -------------------------------------------------------------------------------------------------- */
@@ -380,7 +389,7 @@ typedef struct brume_effect {
      zero, whether scattering and absorption are grey, whether there are constant, exponential and Gaussian densities, how
      many coefficients the environment has, and whether there are lights. An effect is dropped for reasons that stay as planned, or
      for what the medium but its Gaussians, metres_per_unit or the format's distances are: only where these differ does the host ask
-     by another plan() whether it would run now. */
+     by another plan() whether it would run now, of a scene with one Gaussian at most and one light of each shadow_kind. */
   brume_status (*plan)(const brume_services *services, brume_host host, const brume_plugin_request *request, void **state);
   brume_status (*execute)(const brume_services *services, brume_host host, void *state, const brume_plugin_frame *frame);
   void (*destroy)(void *state); /* state may be NULL */
@@ -402,6 +411,14 @@ typedef struct brume_effect {
   /* NULL: uses all that `uses` names; else whether (1 or 0) it uses number `index` of them with these parameters, those that settle
      left. What no running effect uses is not made. */
   uint32_t (*uses_with)(const double *parameters, uint32_t index);
+
+  /* scene_count (at most 64) texts of scene files that between them have the effect's passes do all kinds of their work, for
+     brume_context_calibrate. NULL: it takes scenes of its own, one for each kind of density. It runs the effect alone: with each of its
+     offers, or where it has none with the parameters that the text sets. Frames are small, and bring the layers that the effect needs,
+     then all of the frame's size that it reads. */
+  const char *const *scenes;
+  uint32_t scene_count;
+  uint32_t reserved_too;
 } brume_effect;
 
 typedef const brume_effect *(*brume_plugin_effect_function)(uint32_t host_abi);

@@ -26,7 +26,7 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
         return nonsense;
     if (test_case == "plan_without_entry")
         return BRUME_OK;
-    const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0};
+    const brume_plugin_entry entry{sizeof(brume_plugin_entry), 1, "pass", "always", 0, 0, 0, 0};
     if (brume_status status = services->add_entry(host, &entry); status || test_case != "throws_in_rows")
         return status;
     brume_pass_desc desc{};

@@ -31,8 +31,8 @@ void destroy(void *) {}
 std::array<char, 8192> endless;
 
 std::array<brume_parameter_info, 2> parameters{{
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 1.0, 0.5, "first", "", "First", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 1.0, 0.5, "second", "", "Second", ""},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 1.0, 0.5, "first", "", "First", "", ""},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 1.0, 0.5, "second", "", "Second", "", ""},
 }};
 
 std::array<brume_layer_info, 2> layers{{

@@ -10,9 +10,10 @@ namespace {
 constexpr bool makes = std::string_view(TEST_CASE) == "makes_shade";
 const char *const product[] = {"shade"};
 
-const brume_parameter_info parameters[] = {
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1, 0.25, "share", "", "Of the red; 0: there is no shade", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0, 1, 0, "strays", "", "Publishes what it does not make", ""}};
+const brume_parameter_info parameters[] = {{sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0, 1, 0.25, "share", "",
+                                            "Of the red; 0: there is no shade", "", ""},
+                                           {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0, 1, 0, "strays", "",
+                                            "Publishes what it does not make", "", ""}};
 
 struct Constants {
     float share;
@@ -92,6 +93,8 @@ brume_status plan(const brume_services *services, brume_host host, const brume_p
                                    : made == BRUME_MADE_EARLIER ? "shade is made"
                                    : made == BRUME_MADE_LATER   ? "shade comes too late"
                                                                 : "nobody makes shade",
+                                   0,
+                                   0,
                                    0,
                                    0};
     if (const brume_status status = services->add_entry(host, &entry); status || !entry.runs)

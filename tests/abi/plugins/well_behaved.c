@@ -1,14 +1,15 @@
 /* Copies colour to output on the CPU; has a parameter of each type. Also built a second time, to be refused for its name. */
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <brume/brume_plugin.h>
 
 static const brume_parameter_info parameters[] = {
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 10.0, 0.5, "strength", "stops", "How much", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_INTEGER, 1.0, 12.0, 4.0, "levels", "", "How many", ""},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0.0, 0.0, 1.0, "masking", "", "Whether", NULL},
-    {sizeof(brume_parameter_info), BRUME_PARAMETER_CHOICE, 0.0, 0.0, 1.0, "kernel", NULL, "Which", "paper|reference"},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_NUMBER, 0.0, 10.0, 0.5, "strength", "stops", "How much", "", NULL},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_INTEGER, 1.0, 12.0, 4.0, "levels", "", "How many", "", NULL},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_BOOLEAN, 0.0, 0.0, 1.0, "masking", "", "Whether", NULL, ""},
+    {sizeof(brume_parameter_info), BRUME_PARAMETER_CHOICE, 0.0, 0.0, 1.0, "kernel", NULL, "Which", "paper|reference", "filter"},
 };
 
 static brume_status copy_rows(const brume_plugin_rows *call, int32_t first, int32_t last)
@@ -29,7 +30,8 @@ static brume_status plan(const brume_services *services, brume_host host, const 
 {
     static const brume_slot slots[] = {{"source", BRUME_ACCESS_FETCH, 0}, {"target", BRUME_ACCESS_WRITE, 0}};
     const uint64_t bytes = (uint64_t)request->width * (uint64_t)request->height * 32;
-    const brume_plugin_entry entry = {sizeof(brume_plugin_entry), 1, "copy", "always", bytes, 0};
+    /* As a plugin of an older header: what lies behind its struct is not the host's to read. */
+    const brume_plugin_entry entry = {offsetof(brume_plugin_entry, alike), 1, "copy", "always", bytes, 7, 1000, 1000};
     brume_pass_desc desc;
     struct state *made;
     brume_status status = services->add_entry(host, &entry);
