@@ -89,6 +89,34 @@ TEST_P(AirlightPhysics, RaysThatPassTheListedGaussiansBySeeTheRest)
     EXPECT_LT(Sampled(scene, frame, 60).errors(lit(scene, frame.depth).airlight)[170], 0.01);
 }
 
+// Few Gaussians are integrated as one density already, in cells that are much wider than these beams.
+TEST_P(AirlightPhysics, BeamsAmongFewGaussiansAreWhole)
+{
+    const Frame frame = lit_frame(64, 40);
+    for (double angle : {8.0, 25.0})
+        for (double haze : {0.0, 0.2}) {
+            Json density{gaussian({-1, 0.4, -7}, 0.7, 1.5), gaussian({1.2, -0.5, -8}, 0.6, 1)};
+            if (haze > 0)
+                density.push_back(constant(haze));
+            const Json spot{{"type", "spot"},
+                            {"position", {0.6, 3, -7}},
+                            {"direction", {-0.2, -1, -0.1}},
+                            {"intensity", 50},
+                            {"angle", angle}};
+            const Json scene = lit_scene({{"scattering", 0.3}, {"density", density}}, Json::array({spot}));
+            const Picture exact = lit(with_airlight(scene, "max_error", 0.0005), frame.depth).airlight,
+                          got = lit(scene, frame.depth).airlight;
+            double off = 0, all = 0;
+            for (int y = 0; y < got.height; ++y)
+                for (int x = 0; x < got.width; ++x) {
+                    off += std::abs(got.at(x, y)[1] - exact.at(x, y)[1]);
+                    all += exact.at(x, y)[1];
+                }
+            printf("a beam of %g degrees, haze %g: off by %.2g of its light\n", angle, haze, off / all);
+            EXPECT_LT(off / all, 0.02);
+        }
+}
+
 TEST(AirlightReference, IsTheExhaustiveQuadrature)
 {
     const Frame frame = lit_frame(5, 4);
