@@ -89,6 +89,27 @@ TEST_P(AirlightPhysics, RaysThatPassTheListedGaussiansBySeeTheRest)
     EXPECT_LT(Sampled(scene, frame, 60).errors(lit(scene, frame.depth).airlight)[170], 0.01);
 }
 
+// A lamp with a radius that the picture does not show: its light has kinks where rays enter its ball and leave it.
+TEST_P(AirlightPhysics, RaysThroughALampsBallAreAsNear)
+{
+    const Picture depth(40, 30, 1, 50);
+    for (double g : {0.0, 0.5, 0.9})
+        for (double radius : {0.6, 2.4}) {
+            const Json scene =
+                lit_scene({{"scattering", 0.2}, {"g", g}}, Json::array({point_light({0, 0, -6}, 10, radius)}));
+            const Exhaustive exhaustive(scene, depth.width, depth.height);
+            const Result r = lit(scene, depth);
+            double worst = 0;
+            for (int y = 0; y < depth.height; ++y)
+                for (int x = 0; x < depth.width; ++x) {
+                    const double exact = exhaustive.airlight(exhaustive.ray(x, y, 50))[1];
+                    worst = std::max(worst, std::abs(r.airlight.at(x, y)[1] / exact - 1));
+                }
+            printf("g %g, a ball of %g m at 6 m: worst pixel off by %.2g\n", g, radius, worst);
+            EXPECT_LT(worst, 0.01);
+        }
+}
+
 // Few Gaussians are integrated as one density already, in cells that are much wider than these beams.
 TEST_P(AirlightPhysics, BeamsAmongFewGaussiansAreWhole)
 {
