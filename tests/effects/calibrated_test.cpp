@@ -80,6 +80,25 @@ TEST_P(Calibrated, WhiteFurnace)
                 }
 }
 
+// Nor does it matter that most of it is a sky without fog in front.
+TEST_P(Calibrated, WhiteFurnaceBeneathAKeptSky)
+{
+    for (auto [w, h] : {std::pair(4, 15), {7, 3}, {5, 15}, {37, 23}})
+        for (const char *quality : qualities)
+            for (unsigned seed = 0; seed < 20; ++seed) {
+                const Picture color(w, h, 4, 3.5f);
+                Picture depth = random_depth(w, h, seed);
+                for (size_t i = 0; i < depth.data.size(); ++i)
+                    if (i % 19 != 0)
+                        depth.data[i] = INFINITY;
+                const Worst worst = compare(run(context(), scene(clear_media[1], kernel + quality), color, depth,
+                                                {[](brume_format &format) { format.sky = BRUME_SKY_KEEP; }})
+                                                .output,
+                                            color, 1e-3);
+                EXPECT_LT(worst.error, 1e-5) << w << "x" << h << quality << " " << worst.describe();
+            }
+}
+
 // What arrives of a pixel's scattered light: T_tot - e^-tau, of which none is lost on the way over the pyramid. The image
 // spans 160 degrees and so holds the widest spread.
 TEST_P(Calibrated, EnergyOfOnePixel)
