@@ -22,6 +22,38 @@ PURE float coarse_edge(vec2 blobs, float end, int k)
     return k == coarse_cells - 1 ? blobs.y + R(0.2) * (end - blobs.y) : end;
 }
 
+// A light's mean over a cell, and where of the cell that comes from.
+struct CellLight {
+    float strength;
+    float place;
+};
+
+// center: of the cell's mass, where its light is taken unless a spot's rim crosses it. There the pieces between the edges of its cones are
+// integrated by themselves, the density rising or falling evenly to that center: a beam may be much narrower than a cell.
+PURE CellLight light_of_cell(IN(Medium) medium, IN(Light) light, IN(Aspect) aspect, vec3 direction, vec2 outer, vec2 inner, float from,
+                             float to, float center)
+{
+    if (light.type != light_spot || (from >= inner.x && to <= inner.y))
+        return CellLight(lit_strength(medium, light, aspect, direction, center), center);
+    float width = max(to - from, R(1e-20));
+    float middle = R(0.5) * (from + to);
+    float tilt = clamp(R(12.0) * (center - middle) / width, R(-2.0), R(2.0)) / width;
+    float sum = R(0.0);
+    float arm = R(0.0);
+    for (int piece = 0; piece < 3; ++piece) {
+        float a = max(from, piece == 0 ? outer.x : piece == 1 ? inner.x : inner.y);
+        float b = min(to, piece == 0 ? inner.x : piece == 1 ? inner.y : outer.y);
+        for (int k = -1; k <= 1 && a < b; ++k) {
+            float t = R(0.5) * (a + b) + R(0.387298334621) * float(k) * (b - a);
+            float mass = (b - a) * (k == 0 ? R(8.0 / 18.0) : R(5.0 / 18.0)) * (R(1.0) + tilt * (t - middle));
+            float part = mass * lit_strength(medium, light, aspect, direction, t);
+            sum += part;
+            arm += part * (t - from);
+        }
+    }
+    return CellLight(sum / width, sum > R(0.0) ? from + arm / sum : center);
+}
+
 PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(AirlightSettings) settings, AIRLIGHT_IMAGES,
                                 IN(Sight) sight, int first_light, int last_light)
 {
@@ -168,21 +200,20 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                 if (settings.orders == orders_all)
                     around = surroundings_of(surroundings, l);
                 ShadowRay ray = shadow_ray(camera, SHADOW_MAP_PASSED, settings.shadowed, l, sight.direction, end);
-                vec2 cone = lit_interval(light, sight.direction, end, light.cos_outer);
+                vec2 outer = lit_interval(light, sight.direction, end, light.cos_outer);
+                vec2 inner = lit_interval(light, sight.direction, end, light.cos_inner);
+                if (inner.x >= inner.y)
+                    inner = vec2(outer.y);
+                inner = clamp(inner, vec2(outer.x), vec2(max(outer.x, outer.y)));
                 vec3 before = vec3(R(0.0));
                 vec3 last = vec3(R(0.0));
                 for (int j = 0; j < steps; ++j) {
-                    float from = max(edge[j], cone.x);
-                    float upto = min(edge[j + 1], cone.y);
+                    CellLight cell = light_of_cell(medium, light, aspect, sight.direction, outer, inner, edge[j], edge[j + 1], moment[j]);
+                    float t = cell.place;
                     vec3 f = vec3(R(0.0));
-                    float t = moment[j];
-                    float strength = R(0.0);
-                    if (from < upto) {
-                        t = clamp(t, from, upto);
-                        strength = (upto - from) / (edge[j + 1] - edge[j]) * lit_strength(medium, light, aspect, sight.direction, t);
-                        if (ray.kind != 0)
-                            strength *= lit_share(shadow_maps, ray, edge[j], edge[j + 1]);
-                    }
+                    float strength = cell.strength;
+                    if (strength > R(0.0) && ray.kind != 0)
+                        strength *= lit_share(shadow_maps, ray, edge[j], edge[j + 1]);
                     if (strength > R(0.0) || (settings.orders == orders_all && (light.type == light_spot || ray.kind != 0))) {
                         vec3 point = t * sight.direction;
                         float depth = terms_to_light(medium, light, point) + shadow_density(light_gaussians, camera, l, light, point);

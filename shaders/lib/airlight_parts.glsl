@@ -279,13 +279,22 @@ PURE Path blob_path(IN(Light) light, IN(Aspect) aspect, float middle, float radi
     return angle_path(light, aspect, range.x, range.y, 2);
 }
 
-// The ray's parts between the edges of a spot's inner and outer cone, at which its factor has kinks.
-PURE vec2 lit_piece(IN(Light) light, vec3 direction, float distance, int piece)
+// In how many parts a ray is integrated, for what a light sends has kinks: at the edges of a spot's cones and of a lamp's ball.
+PURE int lit_pieces(IN(Light) light, IN(Aspect) aspect)
+{
+    return light.type == light_spot || (light.type == light_point && aspect.height < light.radius) ? 3 : 1;
+}
+
+PURE vec2 lit_piece(IN(Light) light, IN(Aspect) aspect, vec3 direction, float distance, int piece)
 {
     vec2 outer = lit_interval(light, direction, distance, light.cos_outer);
-    if (light.type != light_spot)
-        return piece == 0 ? outer : vec2(R(1.0), R(0.0));
-    vec2 inner = lit_interval(light, direction, distance, light.cos_inner);
+    vec2 inner = vec2(R(1.0), R(0.0));
+    if (light.type == light_spot) {
+        inner = lit_interval(light, direction, distance, light.cos_inner);
+    } else if (lit_pieces(light, aspect) > 1) {
+        float half_chord = sqrt((light.radius - aspect.height) * (light.radius + aspect.height));
+        inner = clamp(vec2(aspect.foot - half_chord, aspect.foot + half_chord), R(0.0), distance);
+    }
     if (inner.x >= inner.y)
         return piece == 0 ? outer : vec2(R(1.0), R(0.0));
     inner = clamp(inner, vec2(outer.x), vec2(outer.y));
@@ -319,8 +328,8 @@ PURE Airlight light_by_parts(IN(Medium) medium, IN(Camera) camera, IN(AirlightSe
                              vec3 terms, vec2 within, Airlight total)
 {
     TermEnds ends = term_ends(medium, light);
-    for (int piece = 0; piece < (light.type == light_spot ? 3 : 1); ++piece) {
-        vec2 lit = lit_piece(light, sight.direction, min(sight.distance, quadrature_limit), piece);
+    for (int piece = 0; piece < lit_pieces(light, aspect); ++piece) {
+        vec2 lit = lit_piece(light, aspect, sight.direction, min(sight.distance, quadrature_limit), piece);
         lit = vec2(max(lit.x, within.x), min(lit.y, within.y));
         if (lit.x >= lit.y)
             continue;

@@ -134,29 +134,34 @@ PURE Spreading stayed(IN(Medium) medium, IN(Calibrated) f, sampler2D table, samp
     return staying_of(medium, f, table, sum.radiance, sum.coverage, level);
 }
 
-// A square of pixels, of which the picture may have a part only.
+// A square of pixels, of which the picture may have a part only. Pixels without medium in front (a sky that is kept) have no part in it.
 struct Square {
     vec3 color;       // mean
     ivec2 brightest;  // the pixel that the light is taken to come from, so that lamps keep their depth wherever in it they are
+    float share;      // of its pixels, that color is of
 };
 
-PURE Square square_of(IN(Medium) medium, sampler2D color, ivec2 texel, int reduction, ivec2 size)
+PURE Square square_of(IN(Medium) medium, sampler2D color, sampler2D density, ivec2 texel, int reduction, ivec2 size)
 {
     ivec2 first = texel * reduction;
     ivec2 count = min(ivec2(reduction), size - first);
     vec3 sum = vec3(R(0.0));
     ivec2 brightest = first;
     float most = R(-1.0);
+    float fogged = R(0.0);
     for (int j = 0; j < count.y; ++j)
         for (int i = 0; i < count.x; ++i) {
             ivec2 at = first + ivec2(i, j);
+            if (!(texelFetch(density, at, 0).x > R(0.0)))
+                continue;
             vec3 l = finite_or_zero(vec3(texelFetch(color, at, 0)));
             float y = luminance(medium.luminance, l);
             brightest = y > most ? at : brightest;
             most = max(y, most);
             sum += l;
+            fogged += R(1.0);
         }
-    return Square(sum / float(count.x * count.y), brightest);
+    return Square(sum / max(fogged, R(1.0)), brightest, fogged / float(count.x * count.y));
 }
 
 // The same from where it was collected for a pixel of each square. distances: in the fourth channel of the radiance.

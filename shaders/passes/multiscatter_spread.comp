@@ -34,7 +34,7 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= brume_grid.x || p.y >= brume_grid.y)
         return;
-    Square square = square_of(brume_medium, color, p, reduction, image_size);
+    Square square = square_of(brume_medium, color, density, p, reduction, image_size);
     ivec2 at = square.brightest;
     vec2 centre = vec2(at) + 0.5;
     vec2 texel = texelFetch(density, at, 0).rg;
@@ -45,6 +45,6 @@ void main()
 #endif
     Spreading s = spreading_source(brume_medium, calibrated, table, pixel.density, pixel.share, square.color,
                                    shown_share(lights, calibrated.lights, calibrated.all_orders, brume_medium, brume_camera, centre, pixel));
-    imageStore(radiance, p, s.radiance);
-    imageStore(coverage, p, vec4(s.coverage, 1.0));
+    imageStore(radiance, p, square.share * s.radiance);
+    imageStore(coverage, p, vec4(square.share * s.coverage, 1.0));
 }

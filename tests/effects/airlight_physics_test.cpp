@@ -89,6 +89,55 @@ TEST_P(AirlightPhysics, RaysThatPassTheListedGaussiansBySeeTheRest)
     EXPECT_LT(Sampled(scene, frame, 60).errors(lit(scene, frame.depth).airlight)[170], 0.01);
 }
 
+// A lamp with a radius that the picture does not show: its light has kinks where rays enter its ball and leave it.
+TEST_P(AirlightPhysics, RaysThroughALampsBallAreAsNear)
+{
+    const Picture depth(40, 30, 1, 50);
+    for (double g : {0.0, 0.5, 0.9})
+        for (double radius : {0.6, 2.4}) {
+            const Json scene =
+                lit_scene({{"scattering", 0.2}, {"g", g}}, Json::array({point_light({0, 0, -6}, 10, radius)}));
+            const Exhaustive exhaustive(scene, depth.width, depth.height);
+            const Result r = lit(scene, depth);
+            double worst = 0;
+            for (int y = 0; y < depth.height; ++y)
+                for (int x = 0; x < depth.width; ++x) {
+                    const double exact = exhaustive.airlight(exhaustive.ray(x, y, 50))[1];
+                    worst = std::max(worst, std::abs(r.airlight.at(x, y)[1] / exact - 1));
+                }
+            printf("g %g, a ball of %g m at 6 m: worst pixel off by %.2g\n", g, radius, worst);
+            EXPECT_LT(worst, 0.01);
+        }
+}
+
+// Few Gaussians are integrated as one density already, in cells that are much wider than these beams.
+TEST_P(AirlightPhysics, BeamsAmongFewGaussiansAreWhole)
+{
+    const Frame frame = lit_frame(64, 40);
+    for (double angle : {8.0, 25.0})
+        for (double haze : {0.0, 0.2}) {
+            Json density{gaussian({-1, 0.4, -7}, 0.7, 1.5), gaussian({1.2, -0.5, -8}, 0.6, 1)};
+            if (haze > 0)
+                density.push_back(constant(haze));
+            const Json spot{{"type", "spot"},
+                            {"position", {0.6, 3, -7}},
+                            {"direction", {-0.2, -1, -0.1}},
+                            {"intensity", 50},
+                            {"angle", angle}};
+            const Json scene = lit_scene({{"scattering", 0.3}, {"density", density}}, Json::array({spot}));
+            const Picture exact = lit(with_airlight(scene, "max_error", 0.0005), frame.depth).airlight,
+                          got = lit(scene, frame.depth).airlight;
+            double off = 0, all = 0;
+            for (int y = 0; y < got.height; ++y)
+                for (int x = 0; x < got.width; ++x) {
+                    off += std::abs(got.at(x, y)[1] - exact.at(x, y)[1]);
+                    all += exact.at(x, y)[1];
+                }
+            printf("a beam of %g degrees, haze %g: off by %.2g of its light\n", angle, haze, off / all);
+            EXPECT_LT(off / all, 0.02);
+        }
+}
+
 TEST(AirlightReference, IsTheExhaustiveQuadrature)
 {
     const Frame frame = lit_frame(5, 4);

@@ -80,6 +80,25 @@ TEST_P(Calibrated, WhiteFurnace)
                 }
 }
 
+// Nor does it matter that most of it is a sky without fog in front.
+TEST_P(Calibrated, WhiteFurnaceBeneathAKeptSky)
+{
+    for (auto [w, h] : {std::pair(4, 15), {7, 3}, {5, 15}, {37, 23}})
+        for (const char *quality : qualities)
+            for (unsigned seed = 0; seed < 20; ++seed) {
+                const Picture color(w, h, 4, 3.5f);
+                Picture depth = random_depth(w, h, seed);
+                for (size_t i = 0; i < depth.data.size(); ++i)
+                    if (i % 19 != 0)
+                        depth.data[i] = INFINITY;
+                const Worst worst = compare(run(context(), scene(clear_media[1], kernel + quality), color, depth,
+                                                {[](brume_format &format) { format.sky = BRUME_SKY_KEEP; }})
+                                                .output,
+                                            color, 1e-3);
+                EXPECT_LT(worst.error, 1e-5) << w << "x" << h << quality << " " << worst.describe();
+            }
+}
+
 // What arrives of a pixel's scattered light: T_tot - e^-tau, of which none is lost on the way over the pyramid. The image
 // spans 160 degrees and so holds the widest spread.
 TEST_P(Calibrated, EnergyOfOnePixel)
@@ -231,6 +250,70 @@ TEST_P(Calibrated, AnySizeShowsAsMuchLight)
                most / least);
         EXPECT_LT(most / least, place == 0.5 ? 1.03 : 1.5) << place;
     }
+}
+
+// The scattered light of a lamp that is a ball of 1.5 degrees, in all directions at 20 m but for the lamp, at 10.
+struct Glow {
+    double tangent, aspect;  // of half the height; of a pixel
+    Picture scattered;
+
+    Glow(brume_context context, int width, int height, double vertical_fov, double pixel_aspect, double off_axis)
+        : tangent(std::tan(vertical_fov * degree / 2)), aspect(pixel_aspect)
+    {
+        const Vector lamp{std::sin(off_axis * degree), 0, -std::cos(off_axis * degree)};
+        Picture color(width, height, 4, 0), depth(width, height, 1, 20);
+        constexpr int fine = 8;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                int within = 0;
+                for (int k = 0; k < fine * fine; ++k) {
+                    const double u = (2 * (x + (k % fine + 0.5) / fine) - width) * aspect * tangent / height,
+                                 v = (height - 2 * (y + (k / fine + 0.5) / fine)) * tangent / height;
+                    within += (lamp[0] * u - lamp[2]) / std::sqrt(u * u + v * v + 1) > std::cos(1.5 * degree);
+                }
+                if (within)
+                    depth.at(x, y)[0] = 10;
+                color.at(x, y)[0] = color.at(x, y)[1] = color.at(x, y)[2] = 1000.0f * float(within) / (fine * fine);
+            }
+        const Json fog{{"brume", 1},
+                       {"camera", {{"vertical_fov", vertical_fov}, {"pixel_aspect", pixel_aspect}}},
+                       {"medium", {{"scattering", 0.05}, {"g", 0.8}}},
+                       {"effects", {{"multiscatter", Json::object()}}}};
+        scattered = run(context, fog.dump(), color, depth,
+                        Options{[](brume_format &format) { format.depth_kind = BRUME_DEPTH_RAY; }, {"scattered"}})
+                        .scattered;
+    }
+
+    // In a direction so far right and up of the axis [degrees].
+    double at(double right, double up) const
+    {
+        const double u = std::tan(right * degree), v = std::tan(up * degree) * std::sqrt(1 + u * u);
+        const double x = 0.5 * scattered.width + 0.5 * scattered.height * u / (aspect * tangent) - 0.5,
+                     y = 0.5 * scattered.height * (1 - v / tangent) - 0.5;
+        const int i = int(x), j = int(y);
+        const double a = x - i, b = y - j;
+        auto pixel = [&](int dx, int dy) { return double(scattered.at(i + dx, j + dy)[0]); };
+        return (1 - b) * ((1 - a) * pixel(0, 0) + a * pixel(1, 0)) + b * ((1 - a) * pixel(0, 1) + a * pixel(1, 1));
+    }
+
+    static constexpr double degree = 3.14159265358979323846 / 180;
+};
+
+// A limit: angles count as in the middle of the picture, and pixels as squares.
+TEST_P(Calibrated, GlowsAreRoundInPixels)
+{
+    const double middle = Glow(context(), 181, 181, 90, 1, 0).at(0, 4);
+    const Glow aside(context(), 181, 181, 90, 1, 35);
+    const double above = aside.at(35, 4) / middle, inward = aside.at(31, 0) / middle;
+    printf("4 degrees from a lamp 35 degrees off the axis: %.2f times as bright above it, %.2f inward\n", above, inward);
+    EXPECT_NEAR(above, 1, 0.5);
+    EXPECT_NEAR(inward, 1, 0.5);
+    const Glow wide(context(), 90, 181, 60, 2, 0), square(context(), 181, 181, 60, 1, 0);
+    const double beside = wide.at(8, 0) / square.at(8, 0), over = wide.at(0, 8) / square.at(0, 8);
+    printf("8 degrees from a lamp, pixels twice as wide as high: %.2f times as bright beside it, %.2f above\n", beside,
+           over);
+    EXPECT_NEAR(beside, 1, 1);
+    EXPECT_NEAR(over, 1, 1);
 }
 
 // A lamp gives the fog as much light before a far dark background as before one as near as itself.

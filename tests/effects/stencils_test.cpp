@@ -163,16 +163,22 @@ Stack with_bad_pixels(Stack stack)
 
 struct PlainSquare {
     f64::vec3 color{0};
-    int x = 0, y = 0;
+    int x, y;
+    double share = 0;
 };
 
-PlainSquare plain_square(const Stack &picture, const f64::vec3 &weights, int reduction, int column, int row)
+// density: no more than 0 where pixels have no part in it.
+PlainSquare plain_square(const Stack &picture, const Stack &density, const f64::vec3 &weights, int reduction, int column,
+                         int row)
 {
-    PlainSquare square;
+    PlainSquare square{.x = column * reduction, .y = row * reduction};
     double most = -1;
-    int count = 0;
+    int count = 0, fogged = 0;
     for (int y = row * reduction; y < (row + 1) * reduction && y < picture.height; ++y)
         for (int x = column * reduction; x < (column + 1) * reduction && x < picture.width; ++x, ++count) {
+            if (density.wide[size_t(2 * (y * density.width + x))] <= 0)
+                continue;
+            ++fogged;
             f64::vec3 color = color_of(picture, x, y);
             for (int c = 0; c < 3; ++c)
                 color[c] = std::isfinite(color[c]) ? color[c] : 0;
@@ -183,7 +189,8 @@ PlainSquare plain_square(const Stack &picture, const f64::vec3 &weights, int red
                 square.y = y;
             }
         }
-    square.color /= double(count);
+    square.color /= std::max(double(fogged), 1.0);
+    square.share = double(fogged) / count;
     return square;
 }
 
@@ -242,13 +249,17 @@ template <class Rows> void expect_plain_squares(Rows rows)
     for (auto [width, height] : sizes)
         for (int reduction : {1, 2, 4}) {
             const Stack picture = with_bad_pixels(Stack(width, height, 4, 5));
+            Stack density(width, height, 2, 11);
+            for (size_t i = 0; i < density.single.size(); i += 6)
+                density.single[i] = 0, density.wide[i] = 0;
             for (int y = 0; y < (height + reduction - 1) / reduction; ++y)
                 for (int x = 0; x < (width + reduction - 1) / reduction; ++x) {
                     SCOPED_TRACE(testing::Message()
                                  << width << " x " << height << " by " << reduction << ", " << x << ", " << y);
-                    const auto found = rows.square(picture.pixels(), weights, reduction, x, y);
-                    const PlainSquare expected = plain_square(picture, f64::vec3(weights), reduction, x, y);
+                    const auto found = rows.square(picture.pixels(), density.pixels(), weights, reduction, x, y);
+                    const PlainSquare expected = plain_square(picture, density, f64::vec3(weights), reduction, x, y);
                     expect_three(found.color, expected.color, "mean");
+                    ASSERT_NEAR(found.share, expected.share, 1e-6);
                     ASSERT_EQ(found.brightest.x, expected.x);
                     ASSERT_EQ(found.brightest.y, expected.y);
                 }

@@ -84,6 +84,9 @@ const brume_effect effect{
     .offer = nullptr,
     .settle = nullptr,
     .uses_with = nullptr,
+    .scenes = nullptr,
+    .scene_count = 0,
+    .reserved_too = 0,
 };
 
 }  // namespace

@@ -65,6 +65,9 @@ Table table{{
     .offer = nullptr,
     .settle = nullptr,
     .uses_with = nullptr,
+    .scenes = nullptr,
+    .scene_count = 0,
+    .reserved_too = 0,
 }};
 
 void make_choice(const char *choices, double default_number)
