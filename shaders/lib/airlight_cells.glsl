@@ -248,8 +248,9 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
         }
         knot[steps] = end;
         if (round == 1) {
-            // Fewer where a driver would end the loops over lists, which are about as long from lights.
-            float turns = float(max_cells + 1) * float(1 + last_light - first_light) * float(2 + sight.count);
+            // Fewer where a driver would end loops. Lists of lights' cells of directions are a part as long as a tile's.
+            float turns = float(max_cells + 1) * float(2 + sight.count) +
+                          float(max_cells * (last_light - first_light)) * (R(2.0) + R(0.125) * float(sight.count));
             float most = clamp(float(most_turns) / turns - R(3.0), R(1.0), float(most_batches));
             batches = int(clamp(sqrt(error / max(allowed, R(1e-30))) + R(1.0), R(1.0), most));
         }

@@ -85,7 +85,9 @@ PURE Profile grid_profile(IN(Medium) medium, IN(Camera) camera, IN(Gaussian) g, 
 {
     // Corners lie closer off the axis: by its cosine across the way to it, and by the square along that.
     float cosine = max(-direction.z, R(0.05));
-    float spacing = length(g.center) / camera.focal.x * cosine * sqrt(cosine);
+    // Pixels that are no squares: the mean of the squares of their sides.
+    vec2 side = R(1.0) / camera.focal;
+    float spacing = length(g.center) * sqrt(R(0.5) * dot(side, side)) * cosine * sqrt(cosine);
     // Pixels are read at their centres, of few in a cell farther from its corners than in the mean.
     spacing *= sqrt(float(cell) * float(cell) + R(0.5));
     return widened_along(sight_profile(medium, camera, narrowed(g, spacing), direction), g.scale);

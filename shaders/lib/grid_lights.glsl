@@ -51,7 +51,7 @@ PURE float phase_bend(IN(Medium) medium, float cosine)
 PURE Bool smooth_across(IN(Medium) medium, IN(Camera) camera, IN(GridSettings) s, IN(Light) light, IN(Aspect) aspect, vec3 direction,
                         float from, float to)
 {
-    float cell = float(s.cell) / camera.focal.x;
+    float cell = float(s.cell) / min(camera.focal.x, camera.focal.y);
     if (light.type == light_directional)
         return cell * cell * phase_bend(medium, -dot(light.direction, direction)) < s.bend;
     float h = height_of(light, aspect);

@@ -48,7 +48,7 @@ inline Picture airlight_of(brume_context context, const Json &scene, const Frame
 }
 
 struct Errors {
-    double mean = 0, median = 0, p95 = 0, worst = 0;
+    double mean = 0, median = 0, p95 = 0, p99 = 0, worst = 0;
     int x = 0, y = 0;
 };
 
@@ -77,6 +77,7 @@ inline Errors errors(const Picture &a, const Picture &exact)
     std::sort(all.begin(), all.end());
     e.median = all[all.size() / 2];
     e.p95 = all[size_t(0.95 * double(all.size()))];
+    e.p99 = all[size_t(0.99 * double(all.size()))];
     return e;
 }
 

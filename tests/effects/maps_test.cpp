@@ -240,6 +240,21 @@ TEST(AirlightMaps, SurfacesCutClouds)
     }
 }
 
+// Cells are as fine as the wider side of pixels asks, and Gaussians are narrowed by both.
+TEST(AirlightMaps, PixelsThatAreNoSquares)
+{
+    for (double aspect : {0.5, 1.0, 2.0}) {
+        Json scene = scene_of(cloud(60, 19), lamps(3));
+        scene["camera"]["pixel_aspect"] = aspect;
+        const Frame frame = lit_frame(aspect == 2 ? 72 : 144, aspect == 0.5 ? 48 : 96);
+        const Picture exact = airlight_of(cpu(), with(with(scene, "tier", "nodes"), "max_error", 0.002), frame);
+        const Errors e = errors(airlight_of(cpu(), with(scene, "tier", "maps"), frame), exact);
+        report(("pixels " + std::to_string(aspect) + " times as wide as high").c_str(), e);
+        EXPECT_LT(e.median, 0.003);
+        EXPECT_LT(e.p95, 0.015);
+    }
+}
+
 // Nothing but what the picture shows moves: sums that end there go on, and then stay.
 TEST(AirlightMaps, FollowWhatThePictureShows)
 {

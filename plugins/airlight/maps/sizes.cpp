@@ -28,12 +28,14 @@ Sizes sizes_of(const brume_plugin_scene &scene, int width, int height, int least
         // Noise bends rays at Gaussians, by its own wavelength and not by theirs.
         const float(&noise)[4] = scene.medium->noise;
         const double of_noise = noise[0] > 0 ? 0.35 / double(noise[1]) : std::numeric_limits<double>::infinity();
+        // Of pixels that are no squares the wider side.
+        const double focal = double(std::min(scene.camera->focal[0], scene.camera->focal[1]));
         static thread_local std::vector<double> all;  // frames allocate nothing once warm
         all.clear();
         for (const brume_plugin_gaussian &g : brume::gaussians_in(scene)) {
             const double distance = std::hypot(g.center[0], g.center[1], g.center[2]);
             if (-g.center[2] + 2 / g.scale > 0)
-                all.push_back(scene.camera->focal[0] * 0.7071 / std::max(double(g.scale) * distance, 1.0) *
+                all.push_back(focal * 0.7071 / std::max(double(g.scale) * distance, 1.0) *
                               std::min(of_noise * double(g.scale), 1.0));
         }
         if (!all.empty()) {
