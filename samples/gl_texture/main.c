@@ -110,7 +110,7 @@ static void fail(const char *what)
 static void make_context(void)
 {
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
-  EGLDeviceEXT device;
+  EGLDeviceEXT device = NULL;
   EGLDisplay display;
   EGLContext context;
   EGLint count = 0;

@@ -31,8 +31,9 @@ Frame random_frame(int width, int height, unsigned seed)
 
 const char *media[] = {
     "\"scattering\":[0.02,0.03,0.05],\"absorption\":[0.01,0,0.002],\"g\":0.8",
-    "\"scattering\":0.08,\"g\":0.5,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":0.25,\"direction\":[0.1,1,"
-    "0.2]}]",
+    ("\"scattering\":0.08,\"g\":0.5,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":0.25,\"direction\":[0.1,"
+     "1,"
+     "0.2]}]"),
     "\"scattering\":0.001,\"g\":-0.3,\"emission\":[0.01,0.02,0.03]",
 };
 

@@ -13,8 +13,8 @@ const std::string kernel = "\"kernel\":\"calibrated\"";
 
 const char *clear_media[] = {"\"scattering\":0.02,\"g\":0.3", "\"scattering\":[0.05,0.02,0.01],\"g\":0.9",
                              "\"scattering\":2,\"g\":-0.5",
-                             "\"scattering\":0.1,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":0.25,"
-                             "\"direction\":[0.1,1,0.2]}]"};
+                             ("\"scattering\":0.1,\"density\":[{\"type\":\"exponential\",\"value\":1,\"falloff\":0.25,"
+                              "\"direction\":[0.1,1,0.2]}]")};
 const char *dark_media[] = {"\"scattering\":[0.02,0.03,0.05],\"absorption\":[0.01,0,0.002],\"g\":0.8",
                             "\"scattering\":0.001,\"g\":-0.3,\"emission\":[0.01,0.02,0.03]"};
 
