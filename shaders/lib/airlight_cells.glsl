@@ -234,6 +234,8 @@ PURE Airlight airlight_by_cells(IN(Medium) medium, IN(Camera) camera, IN(Airligh
                 }
             }
         }
+        // What rounding takes from an empty cell, the next one has too much; a light on one alone sends nothing.
+        total.radiance = max(total.radiance, vec3(R(0.0)));
         float error = total.error.x + total.error.y + total.error.z;
         float allowed = R(1.8) * settings.tolerance * (total.radiance.x + total.radiance.y + total.radiance.z);
         if (error <= allowed || round == 2)
